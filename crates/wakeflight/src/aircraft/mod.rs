@@ -1,0 +1,2 @@
+//! The whole aircraft: F(y_dot, y, u, t) = 0.
+pub mod data;

@@ -1,0 +1,6 @@
+//! The airframe: fuselage, tail surfaces, tail rotor, interference, mass.
+pub mod fuselage;
+pub mod interference;
+pub mod mass;
+pub mod tail;
+pub mod tail_rotor;

@@ -1,0 +1,1 @@
+//! International standard atmosphere 1976, troposphere.

@@ -1,0 +1,1 @@
+//! Finite elements of a rotating flap-lag-torsion beam.

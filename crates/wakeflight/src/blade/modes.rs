@@ -1,0 +1,1 @@
+//! Natural modes of the rotating blade.

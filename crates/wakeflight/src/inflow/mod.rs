@@ -1,0 +1,2 @@
+//! Inflow models that have states.
+pub mod pitt_peters;

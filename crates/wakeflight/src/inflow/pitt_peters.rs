@@ -1,0 +1,1 @@
+//! Pitt-Peters three-state dynamic inflow.

@@ -1,0 +1,3 @@
+//! The rotor: swashplate, lag damper, hub.
+pub mod lag_damper;
+pub mod swashplate;

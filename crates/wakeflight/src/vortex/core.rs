@@ -1,0 +1,18 @@
+//! Core models of a vortex filament.
+
+/// Swirl profile of the core; `core_radius` is the radius of peak swirl.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Core {
+    /// No core.
+    Singular,
+    /// Vatistas n = 1.
+    Scully,
+    /// Vatistas n = 2.
+    Vatistas2,
+    /// Solid-body core.
+    Rankine,
+    /// Gaussian vorticity.
+    LambOseen,
+    /// Kernel softened in the distance to the element, 1/(r^2 + eps^2)^(3/2).
+    RosenheadMoore,
+}

@@ -1,0 +1,3 @@
+//! Straight vortex segments: core models and sums over many.
+pub mod core;
+pub mod induced_velocity;

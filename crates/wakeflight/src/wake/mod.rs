@@ -1,0 +1,1 @@
+//! Free vortex wake: tip filaments, near wake, relaxation and time marching.

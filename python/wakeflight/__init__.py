@@ -1,0 +1,1 @@
+"""Helicopters in unsteady manoeuvres with a time-accurate free vortex wake."""
