@@ -1,4 +1,12 @@
 //! One blade: properties, beam finite elements, modes, kinematics, loads.
+pub mod aerodynamics;
 pub mod beam;
+pub mod kinematics;
+pub mod loads;
+pub mod model;
 pub mod modes;
 pub mod section;
+pub mod strain;
+
+/// Most modes a blade may keep.
+pub const MAX_MODES: usize = 12;

@@ -1,3 +1,4 @@
 //! The rotor: swashplate, lag damper, hub.
+pub mod hub;
 pub mod lag_damper;
 pub mod swashplate;

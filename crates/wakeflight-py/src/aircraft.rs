@@ -1,0 +1,425 @@
+//! The aircraft: F, its Jacobian, trim equations, exchange with the wake, outputs.
+
+use numpy::ndarray::Array;
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
+use numpy::{PyReadwriteArray1, PyReadwriteArray2};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::f64::consts::TAU;
+use wakeflight::aircraft::circulation::BladeInstant;
+use wakeflight::aircraft::data::AircraftData;
+use wakeflight::aircraft::model::{Aircraft, HeldInflow, Inputs};
+use wakeflight::aircraft::trim::{Convention, TrimInflow, TrimProblem};
+use wakeflight::blade::aerodynamics::Air;
+use wakeflight::blade::model::Discretisation;
+use wakeflight::numerics::frames::{Hub, Vec3};
+use wakeflight::wake::{BladeState, HubMotion as WakeHub, WakeOptions, near_wake_matrix};
+
+fn invalid(error: impl std::fmt::Display) -> PyErr {
+    PyValueError::new_err(error.to_string())
+}
+
+/// What acts on the aircraft over one coupling step; see `wakeflight.flight`.
+#[pyclass(name = "Inputs", frozen)]
+pub struct PyInputs(Inputs);
+
+#[pymethods]
+impl PyInputs {
+    /// Sticks [m] and rates [m/s] at `t_start` [s]; inflow (n_blades, n_stations), None for the states of y.
+    #[new]
+    #[pyo3(signature = (stick, stick_rate, t_start, inflow, mean_inflow, stabilator_incidence, vacuum=false))]
+    fn new(
+        stick: [f64; 4],
+        stick_rate: [f64; 4],
+        t_start: f64,
+        inflow: Option<PyReadonlyArray2<f64>>,
+        mean_inflow: f64,
+        stabilator_incidence: f64,
+        vacuum: bool,
+    ) -> PyResult<Self> {
+        let inflow = match (inflow, vacuum) {
+            (_, true) => HeldInflow::Vacuum,
+            (None, false) => HeldInflow::Dynamic,
+            (Some(map), false) => {
+                HeldInflow::Stations { inflow: map.as_array().iter().copied().collect(), mean: mean_inflow }
+            }
+        };
+        Ok(Self(Inputs { stick, stick_rate, t_start, inflow, stabilator_incidence }))
+    }
+}
+
+/// A steady condition to trim for; see `wakeflight.trim`.
+#[pyclass(name = "TrimProblem", frozen)]
+pub struct PyTrimProblem(TrimProblem);
+
+#[pymethods]
+impl PyTrimProblem {
+    /// `convention` is "bank", "sideslip" or "heading" with `angle` [rad]; inflow (n_azimuths, n_stations) or None (dynamic).
+    #[new]
+    #[allow(clippy::too_many_arguments, reason = "the fields of the problem")]
+    #[pyo3(signature = (speed, flight_path, turn_rate, convention, angle, n_harmonics, n_azimuths, inflow, mean_inflow))]
+    fn new(
+        speed: f64,
+        flight_path: f64,
+        turn_rate: f64,
+        convention: &str,
+        angle: f64,
+        n_harmonics: usize,
+        n_azimuths: usize,
+        inflow: Option<PyReadonlyArray2<f64>>,
+        mean_inflow: f64,
+    ) -> PyResult<Self> {
+        let convention = match convention {
+            "bank" => Convention::Bank(angle),
+            "sideslip" => Convention::Sideslip(angle),
+            "heading" => Convention::Heading(angle),
+            other => return Err(invalid(format!("convention '{other}': bank, sideslip or heading"))),
+        };
+        let inflow = match inflow {
+            None => TrimInflow::Dynamic,
+            Some(map) => TrimInflow::Map { inflow: map.as_array().iter().copied().collect(), mean: mean_inflow },
+        };
+        Ok(Self(TrimProblem { speed, flight_path, turn_rate, convention, n_harmonics, n_azimuths, inflow }))
+    }
+}
+
+/// Aircraft of one condition.
+#[pyclass(name = "Aircraft", frozen)]
+pub struct PyAircraft {
+    inner: Aircraft,
+}
+
+fn hub_vector(v: [f64; 3]) -> Vec3<f64, Hub> {
+    Vec3::from_array(v)
+}
+
+#[pymethods]
+impl PyAircraft {
+    /// From the JSON of the aircraft data, air, discretisation; `free_wake` takes the inflow states out of y.
+    #[new]
+    #[allow(clippy::too_many_arguments, reason = "the fields of the discretisation")]
+    fn new(
+        data_json: &str,
+        density: f64,
+        speed_of_sound: f64,
+        gravity: f64,
+        free_wake: bool,
+        n_elements: usize,
+        n_modes: usize,
+        n_gauss: usize,
+        n_stations: usize,
+        reference_pitch: f64,
+    ) -> PyResult<Self> {
+        let data: AircraftData = serde_json::from_str(data_json).map_err(invalid)?;
+        let discretisation = Discretisation { n_elements, n_modes, n_gauss, n_stations, reference_pitch };
+        let inner = Aircraft::new(&data, Air { density, speed_of_sound }, &discretisation, free_wake, gravity)
+            .map_err(invalid)?;
+        Ok(Self { inner })
+    }
+
+    /// Names and units of the states, in order.
+    fn state_names(&self) -> Vec<(String, &'static str)> {
+        self.inner.layout.names()
+    }
+
+    /// Start indices of the parts of y: velocity, rates, attitude, position, per blade modal and modal_rate, inflow, tail.
+    fn layout<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let (l, d) = (&self.inner.layout, PyDict::new(py));
+        let span = |r: std::ops::Range<usize>| (r.start, r.end);
+        d.set_item("n_blades", l.n_blades)?;
+        d.set_item("n_modes", l.n_modes)?;
+        d.set_item("modal", (0..l.n_blades).map(|b| span(l.modal(b))).collect::<Vec<_>>())?;
+        d.set_item("modal_rate", (0..l.n_blades).map(|b| span(l.modal_rate(b))).collect::<Vec<_>>())?;
+        d.set_item("inflow", span(l.inflow()))?;
+        d.set_item("tail_inflow", span(l.tail_inflow()))?;
+        d.set_item("size", l.len())?;
+        Ok(d)
+    }
+
+    /// Constants of the rotor that the coupling and the results need.
+    fn rotor<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let (r, d) = (&self.inner.rotor, PyDict::new(py));
+        d.set_item("omega", r.omega)?;
+        d.set_item("radius", r.blade.radius)?;
+        d.set_item("hinge_offset", r.hinge())?;
+        d.set_item("n_blades", r.n_blades)?;
+        d.set_item("flap_mode", r.blade.flap_mode)?;
+        d.set_item("flap_per_coordinate", self.inner.flap_per_coordinate())?;
+        d.set_item("blade_mass", r.blade.mass)?;
+        d.set_item("stations", r.blade.stations.iter().map(|s| s.shapes.x).collect::<Vec<_>>())?;
+        d.set_item("widths", r.blade.stations.iter().map(|s| s.geometry.width).collect::<Vec<_>>())?;
+        d.set_item("chords", r.blade.stations.iter().map(|s| s.geometry.chord).collect::<Vec<_>>())?;
+        let modes = 0..r.blade.n_modes;
+        d.set_item("frequencies", r.blade.modes.frequency[modes.clone()].to_vec())?;
+        d.set_item("angle_per_coordinate", modes.map(|i| self.inner.angle_per_coordinate(i)).collect::<Vec<_>>())?;
+        d.set_item("tip_flap", r.blade.tip.w[0][..r.blade.n_modes].to_vec())?;
+        d.set_item("tip_lead", r.blade.tip.v[0][..r.blade.n_modes].to_vec())?;
+        d.set_item("tip_twist", r.blade.tip.theta[..r.blade.n_modes].to_vec())?;
+        d.set_item("root_flap_slope", r.blade.root.w[1][..r.blade.n_modes].to_vec())?;
+        d.set_item("root_lead_slope", r.blade.root.v[1][..r.blade.n_modes].to_vec())?;
+        Ok(d)
+    }
+
+    /// F into `out`.
+    fn residual(
+        &self,
+        t: f64,
+        y: PyReadonlyArray1<f64>,
+        y_dot: PyReadonlyArray1<f64>,
+        inputs: &PyInputs,
+        mut out: PyReadwriteArray1<f64>,
+    ) -> PyResult<()> {
+        self.inner.residual(t, y.as_slice()?, y_dot.as_slice()?, &inputs.0, out.as_slice_mut()?);
+        Ok(())
+    }
+
+    /// a dF/dy + b dF/dy_dot into `out` (n, n).
+    #[allow(clippy::too_many_arguments, reason = "the arguments of F and the two weights")]
+    fn jacobian(
+        &self,
+        t: f64,
+        y: PyReadonlyArray1<f64>,
+        y_dot: PyReadonlyArray1<f64>,
+        inputs: &PyInputs,
+        a: f64,
+        b: f64,
+        mut out: PyReadwriteArray2<f64>,
+    ) -> PyResult<()> {
+        self.inner.jacobian(t, y.as_slice()?, y_dot.as_slice()?, &inputs.0, a, b, out.as_slice_mut()?);
+        Ok(())
+    }
+
+    /// Names of the trim equations.
+    fn trim_equations(&self, problem: &PyTrimProblem) -> Vec<String> {
+        self.inner.trim_layout(&problem.0).equations()
+    }
+
+    /// Index of the first unknown of every mode, and of inflow and tail-rotor inflow.
+    fn trim_layout(&self, problem: &PyTrimProblem) -> (Vec<usize>, usize, usize) {
+        let l = self.inner.trim_layout(&problem.0);
+        ((0..=self.inner.layout.n_modes).map(|i| l.mode(i)).collect(), l.inflow(), l.tail_inflow())
+    }
+
+    /// Residual of the trim equations.
+    fn trim_residual<'py>(
+        &self,
+        py: Python<'py>,
+        problem: &PyTrimProblem,
+        x: PyReadonlyArray1<f64>,
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let x = x.as_slice()?;
+        let mut f = vec![0.0; x.len()];
+        py.detach(|| self.inner.trim_residual(&problem.0, x, &mut f));
+        Ok(f.into_pyarray(py))
+    }
+
+    /// Exact Jacobian of the trim equations (n, n).
+    fn trim_jacobian<'py>(
+        &self,
+        py: Python<'py>,
+        problem: &PyTrimProblem,
+        x: PyReadonlyArray1<f64>,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let x = x.as_slice()?;
+        let n = x.len();
+        let mut j = vec![0.0; n * n];
+        py.detach(|| self.inner.trim_jacobian(&problem.0, x, &mut j));
+        Ok(Array::from_shape_vec((n, n), j).map_err(invalid)?.into_pyarray(py))
+    }
+
+    /// State y at the start of the trimmed flight.
+    fn trim_state<'py>(
+        &self,
+        py: Python<'py>,
+        problem: &PyTrimProblem,
+        x: PyReadonlyArray1<f64>,
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        Ok(self.inner.trim_state(&problem.0, x.as_slice()?).into_pyarray(py))
+    }
+
+    /// Stabilator incidence in trim [rad].
+    fn trim_stabilator(&self, problem: &PyTrimProblem, x: PyReadonlyArray1<f64>) -> PyResult<f64> {
+        let inputs = self.inner.trim_inputs(&problem.0, x.as_slice()?, HeldInflow::Dynamic);
+        Ok(inputs.stabilator_incidence)
+    }
+
+    /// Modal coordinates and rates (n_azimuths, n_modes) of the periodic motion.
+    fn trim_motion<'py>(
+        &self,
+        py: Python<'py>,
+        problem: &PyTrimProblem,
+        x: PyReadonlyArray1<f64>,
+        n_azimuths: usize,
+    ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>)> {
+        let l = self.inner.trim_layout(&problem.0);
+        let n = self.inner.layout.n_modes;
+        let (mut q, mut q_dot) = (Vec::new(), Vec::new());
+        for k in 0..n_azimuths {
+            let m = self.inner.periodic_motion(&l, x.as_slice()?, TAU * k as f64 / n_azimuths as f64);
+            q.extend_from_slice(&m.q[..n]);
+            q_dot.extend_from_slice(&m.q_dot[..n]);
+        }
+        let shape = |v| Array::from_shape_vec((n_azimuths, n), v).map_err(invalid);
+        Ok((shape(q)?.into_pyarray(py), shape(q_dot)?.into_pyarray(py)))
+    }
+
+    /// Hub velocity [m/s] and rates [rad/s], non-rotating hub axes.
+    fn hub(&self, y: PyReadonlyArray1<f64>) -> PyResult<([f64; 3], [f64; 3])> {
+        let y = y.as_slice()?;
+        let hub = self.inner.hub_motion(y, &vec![0.0; y.len()]);
+        Ok((hub.velocity.array(), hub.omega.array()))
+    }
+
+    /// Equivalent rigid flap and lead angles [rad] for modal coordinates (n, n_modes).
+    fn equivalent_angles<'py>(
+        &self,
+        py: Python<'py>,
+        q: PyReadonlyArray2<f64>,
+    ) -> (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>) {
+        let (flap, lead): (Vec<f64>, Vec<f64>) = q
+            .as_array()
+            .rows()
+            .into_iter()
+            .map(|row| self.inner.rotor.equivalent_angles(&motion(row.iter().copied(), std::iter::empty())))
+            .unzip();
+        (flap.into_pyarray(py), lead.into_pyarray(py))
+    }
+
+    /// Circulation and near wake solved together for a set of blade instants.
+    ///
+    /// psi (m,), q and q_dot (m, n_modes), lambda_far and start (m, n_stations); hub motion in hub axes; sticks [m], [m/s].
+    /// Returns circulation, total inflow (m, n_stations), largest residual [m2/s], number not converged.
+    #[allow(clippy::too_many_arguments, clippy::type_complexity, reason = "one call per exchange")]
+    fn solve_circulation<'py>(
+        &self,
+        py: Python<'py>,
+        wake_options: &str,
+        y: PyReadonlyArray1<f64>,
+        stick: [f64; 4],
+        stick_rate: [f64; 4],
+        psi: PyReadonlyArray1<f64>,
+        q: PyReadonlyArray2<f64>,
+        q_dot: PyReadonlyArray2<f64>,
+        lambda_far: PyReadonlyArray2<f64>,
+        start: PyReadonlyArray2<f64>,
+    ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>, f64, usize)> {
+        let options: WakeOptions = serde_json::from_str(wake_options).map_err(invalid)?;
+        let y = y.as_slice()?;
+        let hub = self.inner.hub_motion(y, &vec![0.0; y.len()]);
+        let wake_hub = WakeHub { velocity: hub.velocity.array(), rates: hub.omega.array() };
+        let inputs = Inputs {
+            stick,
+            stick_rate,
+            t_start: 0.0,
+            inflow: HeldInflow::Dynamic,
+            stabilator_incidence: 0.0,
+        };
+        let (psi, q, q_dot) = (psi.as_slice()?, q.as_array(), q_dot.as_array());
+        let (far, start) = (lambda_far.as_array(), start.as_array());
+        let n = far.ncols();
+        let (mut gamma, mut inflow) = (Vec::with_capacity(far.len()), Vec::with_capacity(far.len()));
+        let (mut worst, mut failed) = (0.0f64, 0);
+        for (i, &azimuth) in psi.iter().enumerate() {
+            let modal = motion(q.row(i).iter().copied(), q_dot.row(i).iter().copied());
+            let (flap, lead) = self.inner.rotor.equivalent_angles(&modal);
+            let matrix =
+                near_wake_matrix(&options, &wake_hub, &BladeState { psi: azimuth, flap, lead }).map_err(invalid)?;
+            let blade = BladeInstant { psi: azimuth, modal, control: self.inner.blade_pitch(&inputs, 0.0, azimuth) };
+            let solution = self
+                .inner
+                .blade_circulation(&hub, &blade, &far.row(i).to_vec(), &matrix, &start.row(i).to_vec())
+                .map_err(|e| pyo3::exceptions::PyArithmeticError::new_err(e.to_string()))?;
+            worst = worst.max(solution.residual);
+            failed += usize::from(!solution.converged);
+            gamma.extend(solution.gamma);
+            inflow.extend(solution.inflow);
+        }
+        let shape = |v| Array::from_shape_vec((psi.len(), n), v).map_err(invalid);
+        Ok((shape(gamma)?.into_pyarray(py), shape(inflow)?.into_pyarray(py), worst, failed))
+    }
+
+    /// Circulation [m2/s] of one blade's sections and its slope by inflow, for inflow (n_stations,).
+    #[allow(clippy::too_many_arguments, clippy::type_complexity, reason = "the motion of a blade")]
+    fn section_circulation<'py>(
+        &self,
+        py: Python<'py>,
+        hub_velocity: [f64; 3],
+        hub_rates: [f64; 3],
+        stick: [f64; 4],
+        psi: f64,
+        q: PyReadonlyArray1<f64>,
+        q_dot: PyReadonlyArray1<f64>,
+        inflow: PyReadonlyArray1<f64>,
+    ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>)> {
+        let hub = wakeflight::blade::loads::HubMotion {
+            velocity: hub_vector(hub_velocity),
+            acceleration_less_gravity: Vec3::zero(),
+            omega: hub_vector(hub_rates),
+            omega_dot: Vec3::zero(),
+        };
+        let inputs = Inputs {
+            stick,
+            stick_rate: [0.0; 4],
+            t_start: 0.0,
+            inflow: HeldInflow::Dynamic,
+            stabilator_incidence: 0.0,
+        };
+        let blade = BladeInstant {
+            psi,
+            modal: motion(q.as_slice()?.iter().copied(), q_dot.as_slice()?.iter().copied()),
+            control: self.inner.blade_pitch(&inputs, 0.0, psi),
+        };
+        let lambda = inflow.as_slice()?;
+        let (mut gamma, mut slope) = (vec![0.0; lambda.len()], vec![0.0; lambda.len()]);
+        self.inner.section_circulation(&hub, &blade, lambda, &mut gamma, &mut slope);
+        Ok((gamma.into_pyarray(py), slope.into_pyarray(py)))
+    }
+
+    /// What a run records at an instant, as a dictionary of floats and arrays.
+    fn outputs<'py>(
+        &self,
+        py: Python<'py>,
+        t: f64,
+        y: PyReadonlyArray1<f64>,
+        y_dot: PyReadonlyArray1<f64>,
+        inputs: &PyInputs,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let o = self.inner.outputs(t, y.as_slice()?, y_dot.as_slice()?, &inputs.0);
+        let n_blades = self.inner.rotor.n_blades;
+        let d = PyDict::new(py);
+        d.set_item("force", o.force)?;
+        d.set_item("moment", o.moment)?;
+        d.set_item("hub_force", o.hub_force)?;
+        d.set_item("hub_moment", o.hub_moment)?;
+        d.set_item("ct", o.ct)?;
+        d.set_item("beta_1c", o.beta_1c)?;
+        d.set_item("beta_1s", o.beta_1s)?;
+        d.set_item("power", o.power)?;
+        d.set_item("azimuth", o.azimuth)?;
+        let fields = [
+            ("inflow", o.inflow),
+            ("circulation", o.circulation),
+            ("cl", o.cl),
+            ("cl_m2", o.cl_m2),
+            ("alpha", o.alpha),
+            ("mach", o.mach),
+        ];
+        for (name, values) in fields {
+            let n = values.len() / n_blades;
+            d.set_item(name, Array::from_shape_vec((n_blades, n), values).map_err(invalid)?.into_pyarray(py))?;
+        }
+        Ok(d)
+    }
+}
+
+fn motion(
+    q: impl Iterator<Item = f64>,
+    q_dot: impl Iterator<Item = f64>,
+) -> wakeflight::blade::kinematics::ModalMotion<f64> {
+    let zero = [0.0; wakeflight::blade::MAX_MODES];
+    let mut m = wakeflight::blade::kinematics::ModalMotion { q: zero, q_dot: zero, q_ddot: zero };
+    m.q.iter_mut().zip(q).for_each(|(a, b)| *a = b);
+    m.q_dot.iter_mut().zip(q_dot).for_each(|(a, b)| *a = b);
+    m
+}

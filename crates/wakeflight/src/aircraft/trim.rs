@@ -1,0 +1,378 @@
+//! Trim as algebraic equations: revolution-averaged balances, flight path, periodic blade motion by Galerkin projection.
+//!
+//! Unknowns: four sticks, roll, pitch, heading against the track, dynamic inflow, tail-rotor inflow, and per mode the
+//! mean and the first harmonics of its periodic motion. Equations: three force and three moment balances, the bank or
+//! sideslip convention, the inflow equations with the loads averaged, and every harmonic of the blade equations.
+
+use super::model::{Aircraft, HeldInflow, Inputs};
+use super::residual::RotorLoads;
+use super::state::Layout;
+use crate::blade::MAX_MODES;
+use crate::blade::kinematics::{ModalMotion, PitchMotion};
+use crate::blade::loads::{BladeInflow, BladeLoads};
+use crate::numerics::frames::{Vec3, quaternion, rot_ib};
+use crate::numerics::scalar::{Dual, Real};
+
+/// What fixes the lateral degree of freedom.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Convention {
+    /// Bank angle given [rad], heading against the track free.
+    Bank(f64),
+    /// Sideslip atan2(v, u) given [rad], bank free.
+    Sideslip(f64),
+    /// Heading against the track given [rad], bank free (hover, where no sideslip exists).
+    Heading(f64),
+}
+
+/// Inflow in trim.
+#[derive(Clone, Debug)]
+pub enum TrimInflow {
+    /// Dynamic inflow, constant over the revolution.
+    Dynamic,
+    /// lambda at (azimuth, station), held; and its disk mean.
+    Map {
+        /// Row-major (n_azimuths, n_stations), positive down.
+        inflow: Vec<f64>,
+        /// Disk mean.
+        mean: f64,
+    },
+}
+
+/// A steady flight condition to trim for.
+#[derive(Clone, Debug)]
+pub struct TrimProblem {
+    /// True airspeed along the flight path [m/s].
+    pub speed: f64,
+    /// Flight-path angle, climb positive [rad].
+    pub flight_path: f64,
+    /// Rate of turn, right positive [rad/s].
+    pub turn_rate: f64,
+    /// Lateral convention.
+    pub convention: Convention,
+    /// Harmonics of the blade motion.
+    pub n_harmonics: usize,
+    /// Azimuths of the averages and projections.
+    pub n_azimuths: usize,
+    /// Inflow.
+    pub inflow: TrimInflow,
+}
+
+/// Where each unknown lives in x; the rows of the residual are in the same order.
+#[derive(Clone, Copy, Debug)]
+pub struct TrimLayout {
+    n_modes: usize,
+    n_harmonics: usize,
+    dynamic_inflow: bool,
+    tail_rotor: bool,
+}
+
+impl TrimLayout {
+    /// Roll, pitch, heading against the track start here; sticks are 0..4.
+    pub const ATTITUDE: usize = 4;
+    /// Start of the inflow unknowns.
+    pub fn inflow(&self) -> usize {
+        7
+    }
+    /// Tail-rotor inflow.
+    pub fn tail_inflow(&self) -> usize {
+        7 + if self.dynamic_inflow { 3 } else { 0 }
+    }
+    /// Mean, cosines, sines of mode `i`: 1 + 2 n_harmonics unknowns.
+    pub fn mode(&self, i: usize) -> usize {
+        self.tail_inflow() + usize::from(self.tail_rotor) + i * (1 + 2 * self.n_harmonics)
+    }
+    /// Number of unknowns.
+    pub fn len(&self) -> usize {
+        self.mode(self.n_modes)
+    }
+    /// Never empty.
+    pub fn is_empty(&self) -> bool {
+        false
+    }
+    /// Name of every equation.
+    pub fn equations(&self) -> Vec<String> {
+        let mut names: Vec<String> = ["force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z", "convention"]
+            .map(String::from)
+            .to_vec();
+        if self.dynamic_inflow {
+            names.extend(["inflow_0", "inflow_1s", "inflow_1c"].map(String::from));
+        }
+        if self.tail_rotor {
+            names.push("tail_rotor_inflow".into());
+        }
+        for i in 0..self.n_modes {
+            names.push(format!("mode_{i}_mean"));
+            for k in 1..=self.n_harmonics {
+                names.push(format!("mode_{i}_cos_{k}"));
+                names.push(format!("mode_{i}_sin_{k}"));
+            }
+        }
+        names
+    }
+}
+
+const LANES: usize = 10;
+
+impl Aircraft {
+    /// Layout of the trim unknowns.
+    pub fn trim_layout(&self, problem: &TrimProblem) -> TrimLayout {
+        TrimLayout {
+            n_modes: self.layout.n_modes,
+            n_harmonics: problem.n_harmonics,
+            dynamic_inflow: matches!(problem.inflow, TrimInflow::Dynamic),
+            tail_rotor: self.layout.tail_rotor,
+        }
+    }
+
+    /// Modal coordinate, rate and acceleration at azimuth `psi` from the harmonics in `x`.
+    pub fn periodic_motion<S: Real>(&self, layout: &TrimLayout, x: &[S], psi: f64) -> ModalMotion<S> {
+        let omega = self.rotor.omega;
+        let zero = [S::zero(); MAX_MODES];
+        let mut m = ModalMotion { q: zero, q_dot: zero, q_ddot: zero };
+        for i in 0..self.layout.n_modes {
+            let start = layout.mode(i);
+            m.q[i] = x[start];
+            for k in 1..=layout.n_harmonics {
+                let (s, c) = (k as f64 * psi).sin_cos();
+                let w = k as f64 * omega;
+                let (a, b) = (x[start + 2 * k - 1], x[start + 2 * k]);
+                m.q[i] += a * c + b * s;
+                m.q_dot[i] += (b * c - a * s) * w;
+                m.q_ddot[i] -= (a * c + b * s) * (w * w);
+            }
+        }
+        m
+    }
+
+    /// Body velocity and rates for attitude unknowns in `x`, as the first six states with the attitude behind them.
+    pub fn trim_body_state<S: Real>(&self, problem: &TrimProblem, x: &[S]) -> Vec<S> {
+        let a = TrimLayout::ATTITUDE;
+        let (roll, pitch, yaw) = (x[a], x[a + 1], x[a + 2]);
+        let attitude = quaternion(roll, pitch, yaw);
+        let (climb, forward) = problem.flight_path.sin_cos();
+        let velocity = rot_ib(attitude).transposed() * Vec3::cst([problem.speed * forward, 0.0, -problem.speed * climb]);
+        let (sp, cp) = pitch.sin_cos();
+        let (sr, cr) = roll.sin_cos();
+        let turn = S::cst(problem.turn_rate);
+        let mut y = vec![S::zero(); self.layout.len()];
+        y[..3].copy_from_slice(&velocity.array());
+        y[3..6].copy_from_slice(&[-(turn * sp), turn * cp * sr, turn * cp * cr]);
+        y[6..10].copy_from_slice(&attitude);
+        y
+    }
+
+    /// Stabilator incidence in trim: on its schedule where it has one [rad].
+    pub fn trim_stabilator<S: Real>(&self, problem: &TrimProblem, collective: S, pitch_rate: S) -> S {
+        self.airframe.trim_incidence(problem.speed, self.air.density, collective, pitch_rate)
+    }
+
+    /// Residual of the trim equations: m/s2, rad/s2, convention, inflow equilibrium, blade harmonics as equivalent angles [rad].
+    pub fn trim_residual<S: Real>(&self, problem: &TrimProblem, x: &[S], f: &mut [S]) {
+        let layout = self.trim_layout(problem);
+        let mut y = self.trim_body_state(problem, x);
+        let y_dot = vec![S::zero(); y.len()];
+        let stick = [x[0], x[1], x[2], x[3]];
+        if layout.dynamic_inflow && self.layout.dynamic_inflow {
+            let i = self.layout.inflow().start;
+            y[i..i + 3].copy_from_slice(&x[layout.inflow()..layout.inflow() + 3]);
+        }
+        if layout.tail_rotor {
+            y[self.layout.tail_inflow().start] = x[layout.tail_inflow()];
+        }
+        let hub = self.hub_motion(&y, &y_dot);
+        let pitch = self.rotor.rigging.pitch(stick);
+
+        // one blade all the way round
+        let n = problem.n_azimuths;
+        let mut mean = BladeLoads {
+            modal: [S::zero(); MAX_MODES],
+            force: Vec3::zero(),
+            moment: Vec3::zero(),
+            aero_force: Vec3::zero(),
+            aero_moment: Vec3::zero(),
+        };
+        for row in &mut f[layout.mode(0)..] {
+            *row = S::zero();
+        }
+        for l in 0..n {
+            let psi = std::f64::consts::TAU * l as f64 / n as f64;
+            let modal = self.periodic_motion(&layout, x, psi);
+            let control = self.cyclic_pitch(&pitch, psi);
+            let loads = self.rotor.blade_loads(self.air, &hub, psi, &modal, &control, &self.trim_blade_inflow(problem, &y, l));
+            let share = self.rotor.n_blades as f64 / n as f64;
+            mean.force += loads.force.scaled(share);
+            mean.moment += loads.moment.scaled(share);
+            mean.aero_force += loads.aero_force.scaled(share);
+            mean.aero_moment += loads.aero_moment.scaled(share);
+            for i in 0..self.layout.n_modes {
+                let start = layout.mode(i);
+                let residual = loads.modal[i] * (self.angle_per_modal_force(i) / n as f64);
+                f[start] += residual;
+                for k in 1..=layout.n_harmonics {
+                    let (s, c) = (k as f64 * psi).sin_cos();
+                    f[start + 2 * k - 1] += residual * (2.0 * c);
+                    f[start + 2 * k] += residual * (2.0 * s);
+                }
+            }
+        }
+
+        self.trim_balances(problem, &layout, x, &mut y, &mean, f);
+    }
+
+    /// Averaged balances, lateral convention, inflow equilibrium.
+    fn trim_balances<S: Real>(
+        &self,
+        problem: &TrimProblem,
+        layout: &TrimLayout,
+        x: &[S],
+        y: &mut [S],
+        mean: &BladeLoads<S>,
+        f: &mut [S],
+    ) {
+        let rotor = RotorLoads::sum(std::slice::from_ref(mean));
+        // the first harmonic of the flap mode is what the blades share as beta_1c
+        let flap = layout.mode(self.rotor.blade.flap_mode);
+        let beta_1c = if layout.n_harmonics > 0 { x[flap + 1] * self.flap_per_coordinate() } else { S::zero() };
+        let mean_inflow = match &problem.inflow {
+            TrimInflow::Dynamic => x[layout.inflow()],
+            TrimInflow::Map { mean, .. } => S::cst(*mean),
+        };
+        let tail_inflow = if layout.tail_rotor { x[layout.tail_inflow()] } else { S::zero() };
+        let stick = [x[0], x[1], x[2], x[3]];
+        let loads = self.trim_airframe_loads(problem, y, &rotor, mean_inflow, beta_1c, stick, tail_inflow);
+        let velocity = super::state::body_vector(y, Layout::VELOCITY);
+        let rates = super::state::body_vector(y, Layout::RATES);
+        let (inertia_force, inertia_moment) =
+            self.airframe.mass.inertial_residual(velocity, rates, Vec3::zero(), Vec3::zero(), self.gravity_b(y));
+        let force = (loads.force + inertia_force).array();
+        let moment = (loads.moment + inertia_moment).array();
+        for i in 0..3 {
+            f[i] = force[i] / self.airframe.gross_mass;
+            f[3 + i] = moment[i] / self.airframe.reference_inertia[i];
+        }
+        let a = TrimLayout::ATTITUDE;
+        f[6] = match problem.convention {
+            Convention::Bank(bank) => x[a] - bank,
+            Convention::Heading(heading) => x[a + 2] - heading,
+            Convention::Sideslip(sideslip) => {
+                let (s, c) = sideslip.sin_cos();
+                (velocity.y * c - velocity.x * s) / problem.speed.max(1.0)
+            }
+        };
+        if layout.dynamic_inflow {
+            let i = layout.inflow();
+            let rate = self.inflow_rate(velocity, rates, &rotor, [x[i], x[i + 1], x[i + 2]]);
+            for k in 0..3 {
+                f[i + k] = rate[k] / self.rotor.omega;
+            }
+        }
+        if layout.tail_rotor {
+            f[layout.tail_inflow()] = loads.tail_inflow_rate / self.rotor.omega;
+        }
+    }
+
+    #[allow(clippy::too_many_arguments, reason = "everything the airframe feels")]
+    fn trim_airframe_loads<S: Real>(
+        &self,
+        problem: &TrimProblem,
+        y: &[S],
+        rotor: &RotorLoads<S>,
+        mean_inflow: S,
+        beta_1c: S,
+        stick: [S; 4],
+        tail_inflow: S,
+    ) -> super::residual::AirframeLoads<S> {
+        let incidence = self.trim_stabilator(problem, stick[2], y[4]);
+        self.loads_on_airframe(y, rotor, mean_inflow, beta_1c, incidence, self.rotor.rigging.pitch(stick)[3], tail_inflow)
+    }
+
+    /// Equivalent angle of a modal force: the static answer of the mode, its tip (or twist) as an angle.
+    pub fn angle_per_modal_force(&self, i: usize) -> f64 {
+        self.angle_per_coordinate(i) / self.rotor.blade.modes.frequency[i].powi(2)
+    }
+
+    /// Largest tip deflection over R - e, or tip twist, per unit of modal coordinate `i`.
+    pub fn angle_per_coordinate(&self, i: usize) -> f64 {
+        let blade = &self.rotor.blade;
+        let span = blade.radius - self.rotor.hinge();
+        (blade.tip.w[0][i].abs() / span).max(blade.tip.v[0][i].abs() / span).max(blade.tip.theta[i].abs())
+    }
+
+    /// Blade pitch with exact rates for steady pitch controls (theta_1c, theta_1s, theta_0, theta_tr).
+    fn cyclic_pitch<S: Real>(&self, pitch: &[S; 4], psi: f64) -> PitchMotion<S> {
+        let omega = self.rotor.omega;
+        let (s, c) = (psi + self.rotor.rigging.phase).sin_cos();
+        let cyclic = pitch[0] * c + pitch[1] * s;
+        PitchMotion {
+            theta: pitch[2] + cyclic,
+            theta_dot: (pitch[1] * c - pitch[0] * s) * omega,
+            theta_ddot: -(cyclic * (omega * omega)),
+        }
+    }
+
+    fn trim_blade_inflow<'a, S: Real>(&self, problem: &'a TrimProblem, y: &[S], l: usize) -> BladeInflow<'a, S> {
+        match &problem.inflow {
+            TrimInflow::Dynamic => {
+                let i = self.layout.inflow().start;
+                BladeInflow::Disk([y[i], y[i + 1], y[i + 2]])
+            }
+            TrimInflow::Map { inflow, .. } => {
+                let n = self.rotor.blade.stations.len();
+                BladeInflow::Stations(&inflow[l * n..(l + 1) * n])
+            }
+        }
+    }
+
+    /// Exact Jacobian of the trim equations, row-major.
+    pub fn trim_jacobian(&self, problem: &TrimProblem, x: &[f64], out: &mut [f64]) {
+        type D = Dual<LANES>;
+        let n = x.len();
+        let mut f = vec![D::zero(); n];
+        let mut column = 0;
+        while column < n {
+            let width = LANES.min(n - column);
+            let mut x_s: Vec<D> = x.iter().map(|&v| D::cst(v)).collect();
+            for lane in 0..width {
+                x_s[column + lane].eps[lane] = 1.0;
+            }
+            self.trim_residual(problem, &x_s, &mut f);
+            for (row, value) in f.iter().enumerate() {
+                out[row * n + column..row * n + column + width].copy_from_slice(&value.eps[..width]);
+            }
+            column += width;
+        }
+    }
+
+    /// State y at t = 0 of the trimmed flight.
+    pub fn trim_state(&self, problem: &TrimProblem, x: &[f64]) -> Vec<f64> {
+        let layout = self.trim_layout(problem);
+        let mut y = self.trim_body_state(problem, x);
+        for b in 0..self.rotor.n_blades {
+            let m = self.periodic_motion(&layout, x, self.rotor.azimuth(0.0, b));
+            for (k, (q, s)) in self.layout.modal(b).zip(self.layout.modal_rate(b)).enumerate() {
+                y[q] = m.q[k];
+                y[s] = m.q_dot[k];
+            }
+        }
+        if layout.dynamic_inflow && self.layout.dynamic_inflow {
+            let i = self.layout.inflow().start;
+            y[i..i + 3].copy_from_slice(&x[layout.inflow()..layout.inflow() + 3]);
+        }
+        if layout.tail_rotor {
+            y[self.layout.tail_inflow().start] = x[layout.tail_inflow()];
+        }
+        y
+    }
+
+    /// Inputs that hold the trim: sticks, stabilator, and the inflow given.
+    pub fn trim_inputs(&self, problem: &TrimProblem, x: &[f64], inflow: HeldInflow) -> Inputs {
+        let y = self.trim_body_state(problem, x);
+        Inputs {
+            stick: [x[0], x[1], x[2], x[3]],
+            stick_rate: [0.0; 4],
+            t_start: 0.0,
+            inflow,
+            stabilator_incidence: self.trim_stabilator(problem, x[2], y[4]),
+        }
+    }
+}

@@ -1,0 +1,90 @@
+//! Air loads of one section by tables: angle of attack from the 3/4-chord point, pressure and directions from the 1/4-chord point.
+
+use super::kinematics::{BladeAxes, SectionMotion};
+use crate::airfoil::Airfoil;
+use crate::numerics::frames::Vec3;
+use crate::numerics::scalar::Real;
+
+/// A blade station: middle of one spanwise element.
+#[derive(Clone, Copy, Debug)]
+pub struct StationGeometry {
+    /// Chord [m].
+    pub chord: f64,
+    /// Width of the element for drag [m].
+    pub width: f64,
+    /// Width for lift and moment, cut by the tip loss [m].
+    pub lift_width: f64,
+    /// Quarter chord ahead of the elastic axis [m].
+    pub quarter: f64,
+    /// Three-quarter chord ahead of the elastic axis (negative) [m].
+    pub three_quarter: f64,
+}
+
+/// Density [kg/m3] and speed of sound [m/s].
+#[derive(Clone, Copy, Debug)]
+pub struct Air {
+    /// Density.
+    pub density: f64,
+    /// Speed of sound.
+    pub speed_of_sound: f64,
+}
+
+/// What a section feels and does, per unit span.
+#[derive(Clone, Copy, Debug)]
+pub struct SectionAir<S> {
+    /// Angle of attack [rad].
+    pub alpha: S,
+    /// Mach number normal to the span.
+    pub mach: S,
+    /// Speed normal to the span at the quarter chord [m/s].
+    pub speed: S,
+    /// Lift coefficient.
+    pub cl: S,
+    /// Bound circulation, positive for upward lift [m2/s].
+    pub circulation: S,
+    /// Force of the element at the quarter chord [N].
+    pub force: Vec3<S, BladeAxes>,
+    /// Moment of the element about the elastic axis [N m].
+    pub moment: Vec3<S, BladeAxes>,
+}
+
+/// Air loads of a section. `wind` is the velocity of the air relative to the point of the elastic axis,
+/// `omega` the section's absolute angular velocity (both blade axes).
+#[inline(always)]
+pub fn section_air<S: Real>(
+    airfoil: &Airfoil,
+    air: &Air,
+    station: &StationGeometry,
+    motion: &SectionMotion<S>,
+    wind: Vec3<S, BladeAxes>,
+    omega: Vec3<S, BladeAxes>,
+) -> SectionAir<S> {
+    let (c, n, t) = (motion.c, motion.n, motion.t);
+    // the chord point at distance d ahead moves with omega x (d c): components along c and n
+    let spin = omega.cross(c);
+    let (wind_c, wind_n) = (wind.dot(c), wind.dot(n));
+    let spin_n = spin.dot(n);
+    let quarter_n = wind_n - spin_n * station.quarter;
+    let three_quarter_n = wind_n - spin_n * station.three_quarter;
+
+    let alpha = three_quarter_n.atan2(-wind_c);
+    // the small constant keeps the derivative finite where a section stands still in the air
+    let speed = (wind_c * wind_c + quarter_n * quarter_n + 1e-12).sqrt();
+    let mach = speed / air.speed_of_sound;
+    let (cl, cd, cm) = airfoil.coefficients(alpha, mach);
+
+    let half_rho_c = 0.5 * air.density * station.chord;
+    // lift is perpendicular to the wind, drag along it
+    let lift = cl * speed * (half_rho_c * station.lift_width);
+    let drag = cd * speed * (half_rho_c * station.width);
+    let force = c * (lift * quarter_n + drag * wind_c) + n * (drag * quarter_n - lift * wind_c);
+    // moment about the quarter chord, with the quasi-steady pitch-rate damping of thin-airfoil theory
+    let pitch_rate = omega.dot(t);
+    let pitch_damping = pitch_rate
+        * speed
+        * (-std::f64::consts::PI / 16.0 * air.density * station.chord.powi(3) * station.lift_width);
+    let about_quarter = cm * speed * speed * (half_rho_c * station.chord * station.lift_width) + pitch_damping;
+    let moment = t * about_quarter + c.cross(force) * S::cst(station.quarter);
+
+    SectionAir { alpha, mach, speed, cl, circulation: cl * speed * (0.5 * station.chord), force, moment }
+}

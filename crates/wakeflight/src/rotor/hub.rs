@@ -1,0 +1,139 @@
+//! The rotor: equal blades on a hub, each with its lag damper, turned by the swashplate.
+
+use super::lag_damper::LagDamper;
+use super::swashplate::Rigging;
+use crate::airfoil::Airfoil;
+use crate::blade::MAX_MODES;
+use crate::blade::aerodynamics::Air;
+use crate::blade::kinematics::{ModalMotion, PitchMotion, combine};
+use crate::blade::loads::{BladeEnvironment, BladeInflow, BladeLoads, HubMotion};
+use crate::blade::model::Blade;
+use crate::numerics::frames::{Body, Hub, Rotation, Vec3, rot_hb};
+use crate::numerics::scalar::Real;
+
+/// Rotor of equal blades.
+#[derive(Clone, Debug)]
+pub struct Rotor {
+    /// Blade.
+    pub blade: Blade,
+    /// Number of blades.
+    pub n_blades: usize,
+    /// Section tables.
+    pub airfoil: Airfoil,
+    /// Damper of every blade.
+    pub lag_damper: Option<LagDamper>,
+    /// Sticks to pitch.
+    pub rigging: Rigging,
+    /// Rotor speed [rad/s].
+    pub omega: f64,
+    /// Hub centre from the body origin [m].
+    pub position: [f64; 3],
+    /// Shaft tilt forward and to the right [rad].
+    pub shaft_tilt: [f64; 2],
+}
+
+impl Rotor {
+    /// Rotation from body to hub axes.
+    pub fn rot_hb<S: Real>(&self) -> Rotation<S, Hub, Body> {
+        rot_hb(self.shaft_tilt[0], self.shaft_tilt[1])
+    }
+
+    /// Tip speed [m/s].
+    pub fn tip_speed(&self) -> f64 {
+        self.omega * self.blade.radius
+    }
+
+    /// Hub motion from body velocity, rates, their derivatives, and gravity [body axes].
+    pub fn hub_motion<S: Real>(
+        &self,
+        velocity_b: Vec3<S, Body>,
+        rates_b: Vec3<S, Body>,
+        velocity_dot: Vec3<S, Body>,
+        rates_dot: Vec3<S, Body>,
+        gravity_b: Vec3<S, Body>,
+    ) -> HubMotion<S> {
+        let r = self.rot_hb::<S>();
+        let arm = Vec3::cst(self.position);
+        let swing = rates_b.cross(arm);
+        HubMotion {
+            velocity: r * (velocity_b + swing),
+            acceleration_less_gravity: r
+                * (velocity_dot + rates_b.cross(velocity_b) + rates_dot.cross(arm) + rates_b.cross(swing) - gravity_b),
+            omega: r * rates_b,
+            omega_dot: r * rates_dot,
+        }
+    }
+
+    /// Azimuth of blade `b` [rad] when the first is at `psi`.
+    pub fn azimuth(&self, psi: f64, b: usize) -> f64 {
+        psi + std::f64::consts::TAU * b as f64 / self.n_blades as f64
+    }
+
+    fn environment(&self, air: Air) -> BladeEnvironment<'_> {
+        BladeEnvironment { airfoil: &self.airfoil, air, rotor_speed: self.omega }
+    }
+
+    /// Loads of a blade with its damper, at azimuth `psi` for the stick position [m] and its rate [m/s].
+    #[allow(clippy::too_many_arguments, reason = "the physical inputs of one blade")]
+    pub fn blade_loads<S: Real>(
+        &self,
+        air: Air,
+        hub: &HubMotion<S>,
+        psi: f64,
+        modal: &ModalMotion<S>,
+        control: &PitchMotion<S>,
+        inflow: &BladeInflow<S>,
+    ) -> BladeLoads<S> {
+        let mut loads = self.blade.loads(&self.environment(air), hub, S::cst(psi), modal, control, inflow);
+        self.add_damper(modal, control, &mut loads.modal);
+        loads
+    }
+
+    /// Visits the air at every station of a blade: (station, section, inflow).
+    #[allow(clippy::too_many_arguments, reason = "the physical inputs of one blade")]
+    pub fn blade_air<S: Real>(
+        &self,
+        air: Air,
+        hub: &HubMotion<S>,
+        psi: f64,
+        modal: &ModalMotion<S>,
+        control: &PitchMotion<S>,
+        inflow: &BladeInflow<S>,
+        each: impl FnMut(usize, &crate::blade::aerodynamics::SectionAir<S>, S),
+    ) {
+        self.blade.air(&self.environment(air), hub, S::cst(psi), modal, control, inflow, each);
+    }
+
+    /// Virtual work of damper and hinge spring: they act between hub and blade and pass no load on.
+    fn add_damper<S: Real>(&self, modal: &ModalMotion<S>, control: &PitchMotion<S>, work: &mut [S; MAX_MODES]) {
+        let Some(damper) = &self.lag_damper else { return };
+        let (blade, n) = (&self.blade, self.blade.n_modes);
+        let m = blade.root.motion(n, modal, control);
+        let pitch = control.theta + combine(&blade.root.theta, &modal.q, n);
+        let pitch_dot = control.theta_dot + combine(&blade.root.theta, &modal.q_dot, n);
+        let (flap_dot, lead_dot) = m.angle_rates();
+        let (force, stroke) = damper.force_and_gradient(m.lead, m.flap, pitch, lead_dot, flap_dot, pitch_dot);
+        let spring = damper.spring_moment(m.lead);
+        for (i, total) in work.iter_mut().enumerate().take(n) {
+            let (flap_i, lead_i) = m.angle_gradient(&blade.root, i);
+            let stroke_i = stroke[0] * lead_i + stroke[1] * flap_i + stroke[2] * blade.root.theta[i];
+            *total += spring * lead_i - force * stroke_i;
+        }
+    }
+
+    /// Rigid flap and lead angles that put the tip where the deflected blade has it [rad].
+    pub fn equivalent_angles(&self, modal: &ModalMotion<f64>) -> (f64, f64) {
+        let (n, tip) = (self.blade.n_modes, &self.blade.tip);
+        let still = PitchMotion { theta: 0.0, theta_dot: 0.0, theta_ddot: 0.0 };
+        let at = tip.motion(n, modal, &still).position;
+        let (s, c) = self.blade.precone.sin_cos();
+        let (x, y, z) = (at.x * c - at.z * s, at.y, at.x * s + at.z * c);
+        let e = self.hinge();
+        ((z / (self.blade.radius - e)).clamp(-1.0, 1.0).asin(), y.atan2(x - e))
+    }
+
+    /// Station about which the wake's rigid equivalent blade turns [m].
+    pub fn hinge(&self) -> f64 {
+        self.blade.root_station
+    }
+}
