@@ -1,1 +1,25 @@
 //! Free vortex wake: tip filaments, near wake, relaxation and time marching.
+//!
+//! Everything that crosses the border is SI, in the hub frame `_h` (x aft, y right, z up, non-rotating, origin at the hub).
+
+pub mod circulation;
+pub mod error;
+pub mod filament;
+pub mod geometry;
+pub mod inboard_sheet;
+pub mod initial;
+pub mod near_wake;
+pub mod options;
+pub mod relaxation;
+pub mod stencils;
+pub mod time_marching;
+pub mod tip_strength;
+pub mod velocity_field;
+
+pub use circulation::{CirculationSolution, solve_circulation};
+pub use error::WakeError;
+pub use near_wake::near_wake_matrix;
+pub use options::{BladeState, Form, HubMotion, InboardWake, Predictor, Scheme, TipStrength, WakeOptions};
+pub use relaxation::{Norms, RelaxationWake};
+pub use time_marching::{StepReport, TimeMarchingWake};
+pub use velocity_field::{InducedVelocity, Prescribed, VortexSegments};

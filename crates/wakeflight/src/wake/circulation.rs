@@ -1,0 +1,128 @@
+//! Circulation of a blade solved together with its near wake.
+
+use super::error::{WakeError, finite, length};
+use nalgebra::{DMatrix, DVector};
+
+/// Most Newton iterations.
+const MAX_ITERATIONS: usize = 40;
+/// Most halvings of one step.
+const MAX_HALVINGS: usize = 10;
+/// Most consecutive steps without descent (kinks of section tables).
+const MAX_FAILURES: usize = 3;
+
+/// Solution of the circulation and the near wake.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CirculationSolution {
+    /// Circulation (n_stations) [m2/s].
+    pub gamma: Vec<f64>,
+    /// Induced inflow that belongs to it, near wake included (n_stations).
+    pub inflow: Vec<f64>,
+    /// Largest |gamma_section - gamma| [m2/s].
+    pub residual: f64,
+    /// Newton iterations.
+    pub iterations: usize,
+    /// Whether the residual is below the tolerance; otherwise this is the best iterate.
+    pub converged: bool,
+}
+
+/// One evaluation: inflow, section circulation and slopes at `gamma`.
+struct Iterate {
+    gamma: DVector<f64>,
+    inflow: DVector<f64>,
+    defect: DVector<f64>,
+    slope: Vec<f64>,
+    residual: f64,
+}
+
+/// Solves Gamma_i = Gamma_section,i(lambda_far,i + sum_j N_ij Gamma_j) for one blade.
+///
+/// * `lambda_far` (n) [-]: inflow at the stations without the near wake of the own blade;
+/// * `n_matrix` (n, n) row-major [s/m2]: see [`near_wake_matrix`](super::near_wake_matrix);
+/// * `section(lambda, gamma, dgamma_dlambda)`: circulation of the sections [m2/s] and its slope [m2/s];
+/// * `gamma_start` (n) [m2/s]: start;
+/// * `slope_floor` (n) [m2/s]: least slope of the linearisation, -3 chord omega R. (Gamma = V c C_l / 2 and
+///   d alpha/d lambda = -omega R/V give -C_l_alpha/2 chord omega R, about -pi chord omega R for a thin section.)
+///   Slopes are clipped to [floor, 0];
+/// * `tolerance` [m2/s], for example 1e-8 omega R^2.
+///
+/// Newton steps (I - S N) dGamma = Gamma_section - Gamma, halved while the residual grows. Values of `section` that are
+/// not finite are treated as an infinite residual and never accepted.
+pub fn solve_circulation(
+    lambda_far: &[f64],
+    n_matrix: &[f64],
+    mut section: impl FnMut(&[f64], &mut [f64], &mut [f64]),
+    gamma_start: &[f64],
+    slope_floor: &[f64],
+    tolerance: f64,
+) -> Result<CirculationSolution, WakeError> {
+    let n = lambda_far.len();
+    length("n_matrix", n_matrix.len(), n * n)?;
+    length("gamma_start", gamma_start.len(), n)?;
+    length("slope_floor", slope_floor.len(), n)?;
+    finite("lambda_far", lambda_far)?;
+    finite("n_matrix", n_matrix)?;
+    finite("gamma_start", gamma_start)?;
+    finite("slope_floor", slope_floor)?;
+    let near = DMatrix::from_row_slice(n, n, n_matrix);
+    let far = DVector::from_column_slice(lambda_far);
+
+    let mut evaluate = |gamma: DVector<f64>| {
+        let inflow = &far + &near * &gamma;
+        let mut from_section = vec![0.0; n];
+        let mut slope = vec![0.0; n];
+        section(inflow.as_slice(), &mut from_section, &mut slope);
+        let defect = DVector::from_vec(from_section) - &gamma;
+        let usable = defect.iter().chain(&slope).all(|v| v.is_finite());
+        let residual = if usable { defect.amax() } else { f64::INFINITY };
+        for (s, floor) in slope.iter_mut().zip(slope_floor) {
+            *s = s.max(*floor).min(0.0);
+        }
+        Iterate { gamma, inflow, defect, slope, residual }
+    };
+
+    let mut here = evaluate(DVector::from_column_slice(gamma_start));
+    let mut best = (here.gamma.clone(), here.inflow.clone(), here.residual);
+    let mut iterations = 0;
+    let mut failures = 0;
+    while best.2 > tolerance && here.residual.is_finite() && iterations < MAX_ITERATIONS && failures < MAX_FAILURES {
+        iterations += 1;
+        let mut jacobian = DMatrix::identity(n, n);
+        for i in 0..n {
+            for j in 0..n {
+                jacobian[(i, j)] -= here.slope[i] * near[(i, j)];
+            }
+        }
+        let Some(step) = jacobian.lu().solve(&here.defect) else { break };
+        if step.iter().any(|v| !v.is_finite()) {
+            break;
+        }
+        let mut fraction = 1.0;
+        let mut candidate = evaluate(&here.gamma + &step);
+        for _ in 0..MAX_HALVINGS {
+            if candidate.residual < here.residual {
+                break;
+            }
+            fraction *= 0.5;
+            let shorter = evaluate(&here.gamma + &step * fraction);
+            if shorter.residual < candidate.residual {
+                candidate = shorter;
+            }
+        }
+        if candidate.residual < here.residual {
+            failures = 0;
+        } else {
+            failures += 1;
+        }
+        here = candidate;
+        if here.residual < best.2 {
+            best = (here.gamma.clone(), here.inflow.clone(), here.residual);
+        }
+    }
+    Ok(CirculationSolution {
+        gamma: best.0.as_slice().to_vec(),
+        inflow: best.1.as_slice().to_vec(),
+        converged: best.2 <= tolerance,
+        residual: best.2,
+        iterations,
+    })
+}

@@ -1,0 +1,75 @@
+//! Free filaments: markers, registers of circulation, cores.
+
+use super::options::WakeOptions;
+
+/// Filaments of equal length at one instant; markers from the blade to the old end.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Filaments {
+    /// Number of filaments.
+    pub n_filaments: usize,
+    /// Segments of each.
+    pub n_segments: usize,
+    /// Markers (n_filaments, n_segments + 1) [m, `_h`].
+    pub position: Vec<[f64; 3]>,
+    /// Circulation of the markers (n_filaments, n_segments + 1) [m2/s], positive along increasing age.
+    pub circulation: Vec<f64>,
+    /// Square of the core radius of the segments (n_filaments, n_segments) [m2].
+    pub core_squared: Vec<f64>,
+}
+
+impl Filaments {
+    /// Filaments at the origin without circulation, with the cores of undisturbed ageing.
+    pub fn new(options: &WakeOptions, n_filaments: usize) -> Self {
+        let n_segments = options.n_segments();
+        let aged: Vec<f64> = (0..n_segments).map(|k| aged_core_squared(options, k)).collect();
+        Filaments {
+            n_filaments,
+            n_segments,
+            position: vec![[0.0; 3]; n_filaments * (n_segments + 1)],
+            circulation: vec![0.0; n_filaments * (n_segments + 1)],
+            core_squared: aged.repeat(n_filaments),
+        }
+    }
+
+    /// Index of marker `k` of filament `i`.
+    pub fn marker(&self, i: usize, k: usize) -> usize {
+        i * (self.n_segments + 1) + k
+    }
+
+    /// Length of segment `k` of filament `i` [m].
+    pub fn segment_length(&self, i: usize, k: usize) -> f64 {
+        let m = self.marker(i, k);
+        distance(self.position[m], self.position[m + 1])
+    }
+}
+
+/// Core radius after the age `zeta` [rad] of a vortex of constant length [m].
+///
+/// r_c^2 = r_c0^2 + G R^2 zeta: diffusion of a Gaussian vortex with an eddy viscosity,
+/// G R^2 = 4 alpha delta nu / omega, alpha = 1.25643 [squire1965, bhagwat2002].
+pub fn core_radius(options: &WakeOptions, zeta: f64) -> f64 {
+    options.radius * (options.core_radius * options.core_radius + options.core_growth * zeta).sqrt()
+}
+
+/// Square of the core radius of segment `k` in the middle of its age [m2].
+pub fn aged_core_squared(options: &WakeOptions, k: usize) -> f64 {
+    core_radius(options, (k as f64 + 0.5) * options.delta_psi()).powi(2)
+}
+
+/// Square of the core radius one step later [m2]: growth, then thinning at constant volume of vorticity.
+///
+/// r_c^2 <- (r_c^2 + G R^2 delta_psi) l_old / l_new; the ratio of lengths is limited to 0.5 ... 2 in a step,
+/// the radius to 0.1 r_c0 ... 0.5 R.
+pub fn stretched_core_squared(options: &WakeOptions, core_squared: f64, length_old: f64, length_new: f64) -> f64 {
+    let r2 = options.radius * options.radius;
+    let grown = core_squared + options.core_growth * r2 * options.delta_psi();
+    let ratio = if length_new > 0.0 { (length_old / length_new).clamp(0.5, 2.0) } else { 2.0 };
+    let least = 0.01 * options.core_radius * options.core_radius * r2;
+    (grown * ratio).clamp(least, (0.25 * r2).max(least))
+}
+
+/// Distance of two points.
+pub(crate) fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    let d = [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+    (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt()
+}

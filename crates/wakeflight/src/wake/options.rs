@@ -1,0 +1,439 @@
+//! Rotor, grid and vortex model of a free wake; motion of the hub and of a blade.
+
+use super::error::{WakeError, finite};
+pub use crate::vortex::core::CoreDistance;
+use serde::{Deserialize, Serialize};
+use std::f64::consts::{PI, TAU};
+
+/// Corrector of the time-marching wake.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Scheme {
+    /// Second-order backward in azimuth at the new level, centred in age.
+    Bdf2,
+    /// Second-order backward in azimuth at the centre of the cell.
+    Pc2b,
+    /// Five-point central in azimuth and age.
+    Pcc,
+}
+
+/// Predictor of the time-marching wake.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Predictor {
+    /// Stencil of the corrector.
+    Same,
+    /// Five-point central.
+    Central,
+}
+
+/// Unknown that the stencils of the time-marching wake act on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Form {
+    /// Displacement of a marker from the place of its release.
+    Displacement,
+    /// Position.
+    Position,
+}
+
+/// Circulation of the tip vortex from that of the blade.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum TipStrength {
+    /// Uniform circulation of equal thrust.
+    Equivalent,
+    /// Crest of the outboard circulation.
+    Max,
+    /// Mean of the outboard circulation.
+    Mean,
+}
+
+/// What trails inboard of the tip vortex, beyond the near wake.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum InboardWake {
+    /// Nothing.
+    None,
+    /// Rigid helical filaments.
+    Sheet,
+}
+
+/// Options of a free wake. Rotor data have no default; numerical parameters have.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct WakeOptions {
+    /// Number of blades.
+    pub n_blades: usize,
+    /// Rotor radius [m].
+    pub radius: f64,
+    /// Inner end of the bound vortex [m].
+    pub root_cutout: f64,
+    /// Distance of the equivalent hinge from the shaft [m].
+    pub hinge_offset: f64,
+    /// Reference chord of core radii [m].
+    pub chord: f64,
+    /// Rotor speed relative to the airframe [rad/s].
+    pub omega: f64,
+    /// Bound elements per blade.
+    #[serde(default = "default::n_stations")]
+    pub n_stations: usize,
+    /// Length of the free filaments [revolutions]; a whole number of steps.
+    #[serde(default = "default::turns")]
+    pub turns: f64,
+    /// Steps of azimuth, and of age, per revolution; a multiple of `n_blades`.
+    #[serde(default = "default::steps_per_revolution")]
+    pub steps_per_revolution: usize,
+    /// Corrector of the time-marching wake.
+    #[serde(default = "default::scheme")]
+    pub scheme: Scheme,
+    /// Predictor of the time-marching wake.
+    #[serde(default = "default::predictor")]
+    pub predictor: Predictor,
+    /// Unknown of the time-marching stencils.
+    #[serde(default = "default::form")]
+    pub form: Form,
+    /// Weight of the second difference in time that is added to the middle level, 0: none.
+    #[serde(default = "default::zero")]
+    pub time_filter: f64,
+    /// Rule for the strength of the tip vortex.
+    #[serde(default = "default::tip_strength")]
+    pub tip_strength: TipStrength,
+    /// Inner end of the range of `max` and `mean` (fraction of R).
+    #[serde(default = "default::half")]
+    pub tip_strength_inner: f64,
+    /// Inboard wake beyond the near wake.
+    #[serde(default = "default::inboard_wake")]
+    pub inboard_wake: InboardWake,
+    /// Filaments of the inboard sheet per blade.
+    #[serde(default = "default::n_sheet")]
+    pub n_sheet: usize,
+    /// Speed of the sheet along the shaft over the mean induced velocity.
+    #[serde(default = "default::one")]
+    pub sheet_factor: f64,
+    /// Core radius of the tip vortex at its release (fraction of R).
+    #[serde(default = "default::core_radius")]
+    pub core_radius: f64,
+    /// Growth of the square of the core radius, over R^2, per radian of age.
+    #[serde(default = "default::core_growth")]
+    pub core_growth: f64,
+    /// Whether stretching of a segment thins its core.
+    #[serde(default = "default::no")]
+    pub core_stretching: bool,
+    /// Distance in the core factor.
+    #[serde(default = "default::core_distance")]
+    pub core_distance: CoreDistance,
+    /// Whether a marker gets the velocity of the arc that its two chords lack.
+    #[serde(default = "default::no")]
+    pub curvature_correction: bool,
+    /// Length of the near wake [rad]; a whole number of steps, 0: none.
+    #[serde(default = "default::near_wake_angle")]
+    pub near_wake_angle: f64,
+    /// Straight segments of a near-wake trailer.
+    #[serde(default = "default::near_wake_segments")]
+    pub near_wake_segments: usize,
+    /// Core radius of the bound vortices (chords).
+    #[serde(default = "default::quarter")]
+    pub bound_core: f64,
+    /// Least core radius in the inflow at the blades (chords); not for the near wake.
+    #[serde(default = "default::quarter")]
+    pub station_core_floor: f64,
+    /// Repeats of the last turn behind the free filaments.
+    #[serde(default = "default::none")]
+    pub far_wake_turns: usize,
+    /// Release of the tip vortex (fraction of R).
+    #[serde(default = "default::one")]
+    pub release_radius: f64,
+    /// Relaxation factor of the sweeps.
+    #[serde(default = "default::half")]
+    pub relaxation: f64,
+}
+
+/// Default values of the numerical parameters.
+mod default {
+    use super::*;
+    pub fn n_stations() -> usize {
+        20
+    }
+    pub fn turns() -> f64 {
+        4.0
+    }
+    pub fn steps_per_revolution() -> usize {
+        36
+    }
+    pub fn scheme() -> Scheme {
+        Scheme::Bdf2
+    }
+    pub fn predictor() -> Predictor {
+        Predictor::Same
+    }
+    pub fn form() -> Form {
+        Form::Displacement
+    }
+    pub fn tip_strength() -> TipStrength {
+        TipStrength::Equivalent
+    }
+    pub fn inboard_wake() -> InboardWake {
+        InboardWake::None
+    }
+    pub fn n_sheet() -> usize {
+        4
+    }
+    // regularisation of rotors whose wake stays in the disk: smaller cores do not settle
+    pub fn core_radius() -> f64 {
+        0.02
+    }
+    pub fn core_growth() -> f64 {
+        3e-4
+    }
+    pub fn core_distance() -> CoreDistance {
+        CoreDistance::Line
+    }
+    pub fn near_wake_angle() -> f64 {
+        PI / 6.0
+    }
+    pub fn near_wake_segments() -> usize {
+        6
+    }
+    pub fn none() -> usize {
+        0
+    }
+    pub fn no() -> bool {
+        false
+    }
+    pub fn zero() -> f64 {
+        0.0
+    }
+    pub fn quarter() -> f64 {
+        0.25
+    }
+    pub fn half() -> f64 {
+        0.5
+    }
+    pub fn one() -> f64 {
+        1.0
+    }
+}
+
+/// Nearest whole number if `value` is one to rounding.
+fn whole(value: f64) -> Option<usize> {
+    let nearest = value.round();
+    ((value - nearest).abs() < 1e-6 && nearest >= 0.0).then_some(nearest as usize)
+}
+
+impl WakeOptions {
+    /// Options of a rotor with every numerical parameter at its default; lengths in m, `omega` in rad/s.
+    pub fn new(n_blades: usize, radius: f64, root_cutout: f64, hinge_offset: f64, chord: f64, omega: f64) -> Self {
+        WakeOptions {
+            n_blades,
+            radius,
+            root_cutout,
+            hinge_offset,
+            chord,
+            omega,
+            n_stations: default::n_stations(),
+            turns: default::turns(),
+            steps_per_revolution: default::steps_per_revolution(),
+            scheme: default::scheme(),
+            predictor: default::predictor(),
+            form: default::form(),
+            time_filter: default::zero(),
+            tip_strength: default::tip_strength(),
+            tip_strength_inner: default::half(),
+            inboard_wake: default::inboard_wake(),
+            n_sheet: default::n_sheet(),
+            sheet_factor: default::one(),
+            core_radius: default::core_radius(),
+            core_growth: default::core_growth(),
+            core_stretching: default::no(),
+            core_distance: default::core_distance(),
+            curvature_correction: default::no(),
+            near_wake_angle: default::near_wake_angle(),
+            near_wake_segments: default::near_wake_segments(),
+            bound_core: default::quarter(),
+            station_core_floor: default::quarter(),
+            far_wake_turns: default::none(),
+            release_radius: default::one(),
+            relaxation: default::half(),
+        }
+    }
+
+    /// Step of azimuth and of age [rad].
+    pub fn delta_psi(&self) -> f64 {
+        TAU / self.steps_per_revolution as f64
+    }
+
+    /// Segments of a free filament.
+    pub fn n_segments(&self) -> usize {
+        whole(self.turns * self.steps_per_revolution as f64).unwrap_or(0)
+    }
+
+    /// First marker beyond the near wake.
+    pub fn near_wake_markers(&self) -> usize {
+        whole(self.near_wake_angle / self.delta_psi()).unwrap_or(0)
+    }
+
+    /// Tip speed [m/s].
+    pub fn tip_speed(&self) -> f64 {
+        self.omega * self.radius
+    }
+
+    /// Filaments of the inboard sheet per blade that are in use.
+    pub fn sheet_filaments(&self) -> usize {
+        match self.inboard_wake {
+            InboardWake::None => 0,
+            InboardWake::Sheet => self.n_sheet,
+        }
+    }
+
+    /// Checks every value.
+    pub fn validate(&self) -> Result<(), WakeError> {
+        fn demand(ok: bool, field: &'static str, value: impl ToString, allowed: &str) -> Result<(), WakeError> {
+            if ok {
+                Ok(())
+            } else {
+                Err(WakeError::InvalidOption { field, value: value.to_string(), allowed: allowed.to_string() })
+            }
+        }
+        let positive = |v: f64| v.is_finite() && v > 0.0;
+        let not_negative = |v: f64| v.is_finite() && v >= 0.0;
+        demand(self.n_blades >= 1, "n_blades", self.n_blades, "at least 1")?;
+        demand(positive(self.radius), "radius", self.radius, "positive")?;
+        demand(
+            not_negative(self.root_cutout) && self.root_cutout < self.radius,
+            "root_cutout",
+            self.root_cutout,
+            "from 0 to less than the radius",
+        )?;
+        demand(
+            not_negative(self.hinge_offset) && self.hinge_offset < self.radius,
+            "hinge_offset",
+            self.hinge_offset,
+            "from 0 to less than the radius",
+        )?;
+        demand(positive(self.chord), "chord", self.chord, "positive")?;
+        demand(positive(self.omega), "omega", self.omega, "positive")?;
+        demand(self.n_stations >= 1, "n_stations", self.n_stations, "at least 1")?;
+        demand(
+            self.steps_per_revolution >= 4 && self.steps_per_revolution.is_multiple_of(self.n_blades),
+            "steps_per_revolution",
+            self.steps_per_revolution,
+            &format!("at least 4 and a multiple of n_blades = {}", self.n_blades),
+        )?;
+        let markers = whole(self.turns * self.steps_per_revolution as f64);
+        demand(
+            self.turns.is_finite() && markers.is_some_and(|n| n >= self.steps_per_revolution),
+            "turns",
+            self.turns,
+            "at least 1 and a whole number of steps",
+        )?;
+        demand(
+            (0.0..0.5).contains(&self.time_filter)
+                && (self.time_filter == 0.0 || self.form == Form::Displacement),
+            "time_filter",
+            self.time_filter,
+            "from 0 to less than 0.5, and 0 unless form is displacement",
+        )?;
+        demand(
+            self.tip_strength_inner >= 0.0 && self.tip_strength_inner < 1.0,
+            "tip_strength_inner",
+            self.tip_strength_inner,
+            "from 0 to less than 1",
+        )?;
+        demand(self.n_sheet >= 1, "n_sheet", self.n_sheet, "at least 1")?;
+        demand(
+            self.inboard_wake == InboardWake::None || self.root_cutout < super::inboard_sheet::OUTER_END * self.radius,
+            "root_cutout",
+            self.root_cutout,
+            "inside 0.8 of the radius with an inboard sheet",
+        )?;
+        demand(not_negative(self.sheet_factor), "sheet_factor", self.sheet_factor, "not negative")?;
+        demand(not_negative(self.core_radius), "core_radius", self.core_radius, "not negative")?;
+        demand(not_negative(self.core_growth), "core_growth", self.core_growth, "not negative")?;
+        let near = whole(self.near_wake_angle / self.delta_psi());
+        demand(
+            self.near_wake_angle.is_finite() && near.is_some_and(|n| n < self.steps_per_revolution),
+            "near_wake_angle",
+            self.near_wake_angle,
+            "from 0 to less than a revolution, a whole number of steps",
+        )?;
+        demand(
+            self.near_wake_segments >= 1 || near == Some(0),
+            "near_wake_segments",
+            self.near_wake_segments,
+            "at least 1 with a near wake",
+        )?;
+        demand(not_negative(self.bound_core), "bound_core", self.bound_core, "not negative")?;
+        demand(
+            not_negative(self.station_core_floor),
+            "station_core_floor",
+            self.station_core_floor,
+            "not negative",
+        )?;
+        demand(
+            self.far_wake_turns == 0 || markers.is_some_and(|n| n >= 2 * self.steps_per_revolution),
+            "far_wake_turns",
+            self.far_wake_turns,
+            "0 unless turns is at least 2",
+        )?;
+        demand(
+            self.release_radius.is_finite()
+                && self.release_radius <= 1.0
+                && self.release_radius * self.radius > self.root_cutout.max(self.hinge_offset),
+            "release_radius",
+            self.release_radius,
+            "outboard of the hinge and of the root cutout, up to 1",
+        )?;
+        demand(
+            self.relaxation > 0.0 && self.relaxation <= 1.0,
+            "relaxation",
+            self.relaxation,
+            "more than 0, up to 1",
+        )
+    }
+}
+
+/// Motion of the hub, components along `_h`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize, Serialize)]
+pub struct HubMotion {
+    /// Velocity of the hub through the air [m/s].
+    pub velocity: [f64; 3],
+    /// Angular velocity of the airframe [rad/s].
+    pub rates: [f64; 3],
+}
+
+impl HubMotion {
+    /// Velocity of the air relative to the hub axes at `point` without induction: -velocity - rates x point [m/s].
+    pub fn wind(&self, point: [f64; 3]) -> [f64; 3] {
+        let (v, w, r) = (self.velocity, self.rates, point);
+        [
+            -v[0] - (w[1] * r[2] - w[2] * r[1]),
+            -v[1] - (w[2] * r[0] - w[0] * r[2]),
+            -v[2] - (w[0] * r[1] - w[1] * r[0]),
+        ]
+    }
+
+    /// Refuses components that are not finite.
+    pub(crate) fn validate(&self) -> Result<(), WakeError> {
+        finite("hub velocity", &self.velocity)?;
+        finite("hub rates", &self.rates)
+    }
+}
+
+/// Azimuth of a blade and its equivalent rigid angles.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize, Serialize)]
+pub struct BladeState {
+    /// Azimuth [rad], zero aft, positive in the direction of rotation (toward +y).
+    pub psi: f64,
+    /// Flap [rad], up positive.
+    pub flap: f64,
+    /// Lead [rad], forward positive.
+    pub lead: f64,
+}
+
+impl BladeState {
+    /// Refuses angles that are not finite.
+    pub(crate) fn validate(&self) -> Result<(), WakeError> {
+        finite("blade psi, flap, lead", &[self.psi, self.flap, self.lead])
+    }
+}

@@ -1,0 +1,430 @@
+//! Periodic wake of a steady flight condition by pseudo-implicit predictor-corrector relaxation [bagai1995].
+
+use super::error::{WakeError, finite, length};
+use super::filament::{aged_core_squared, distance, stretched_core_squared};
+use super::geometry::{BladeGrid, release_point};
+use super::initial;
+use super::inboard_sheet;
+use super::options::{BladeState, HubMotion, WakeOptions};
+use super::stencils;
+use super::tip_strength::tip_circulation;
+use super::velocity_field::{
+    InducedVelocity, RotorInstant, VortexSegments, marker_velocity, point_velocity, station_inflow, sum,
+};
+use std::f64::consts::TAU;
+
+/// RMS change of the markers in one sweep, over R.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Norms {
+    /// All markers.
+    pub all: f64,
+    /// Markers of the first turn.
+    pub first_turn: f64,
+}
+
+/// Tip vortices periodic in azimuth: one surface r(psi, zeta) that serves every blade.
+///
+/// dr/dpsi + dr/dzeta = V/omega, five-point central differences in both; blade b at azimuth index l uses row
+/// l + b n_azimuths/n_blades. Rows are the azimuths psi_l = l delta_psi, l = 0 ... steps_per_revolution - 1.
+#[derive(Clone, Debug)]
+pub struct RelaxationWake<F: InducedVelocity = VortexSegments> {
+    pub(crate) options: WakeOptions,
+    pub(crate) grid: BladeGrid,
+    pub(crate) field: F,
+    pub(crate) hub: HubMotion,
+    pub(crate) mean_inflow: f64,
+    /// Blade at every azimuth.
+    pub(crate) blades: Vec<BladeState>,
+    /// Bound circulation (n_azimuths, n_stations) [m2/s].
+    pub(crate) circulation: Vec<f64>,
+    tip_circulation: Vec<f64>,
+    sheet_strength: Vec<f64>,
+    sheet_release: Vec<[f64; 3]>,
+    /// Release points (n_azimuths) [m, `_h`].
+    pub(crate) release: Vec<[f64; 3]>,
+    /// Markers (n_azimuths, n_segments + 1) [m, `_h`].
+    pub(crate) position: Vec<[f64; 3]>,
+    core_squared: Vec<f64>,
+    sweeps: u64,
+    evaluations: u64,
+}
+
+impl RelaxationWake<VortexSegments> {
+    /// Rigid guess of the geometry for a hub motion and a mean induced inflow v/(omega R) (momentum theory); blades
+    /// without flap and circulation until [`set_state`](Self::set_state).
+    pub fn new(options: WakeOptions, hub: HubMotion, mean_inflow: f64) -> Result<Self, WakeError> {
+        let field = VortexSegments::new(&options);
+        Self::with_field(options, hub, mean_inflow, field)
+    }
+}
+
+impl<F: InducedVelocity> RelaxationWake<F> {
+    /// Same with the induced velocity from `field`.
+    pub fn with_field(options: WakeOptions, hub: HubMotion, mean_inflow: f64, field: F) -> Result<Self, WakeError> {
+        options.validate()?;
+        hub.validate()?;
+        finite("mean_inflow", &[mean_inflow])?;
+        let n_psi = options.steps_per_revolution;
+        let (n_k, n_sheet) = (options.n_segments(), options.sheet_filaments());
+        let aged: Vec<f64> = (0..n_k).map(|k| aged_core_squared(&options, k)).collect();
+        let mut wake = RelaxationWake {
+            grid: BladeGrid::new(&options),
+            field,
+            hub,
+            mean_inflow,
+            blades: vec![BladeState::default(); n_psi],
+            circulation: vec![0.0; n_psi * options.n_stations],
+            tip_circulation: vec![0.0; n_psi],
+            sheet_strength: vec![0.0; n_psi * n_sheet],
+            sheet_release: vec![[0.0; 3]; n_psi * n_sheet],
+            release: vec![[0.0; 3]; n_psi],
+            position: vec![[0.0; 3]; n_psi * (n_k + 1)],
+            core_squared: aged.repeat(n_psi),
+            sweeps: 0,
+            evaluations: 0,
+            options,
+        };
+        wake.place(&vec![(0.0, 0.0); n_psi]);
+        wake.restart();
+        Ok(wake)
+    }
+
+    /// New flight condition: hub motion, flap and lead of the blade at every azimuth [rad], and its bound circulation
+    /// (n_azimuths, n_stations) [m2/s].
+    ///
+    /// The geometry is kept (moved with its release points); before the first sweep it is the rigid guess.
+    pub fn set_state(
+        &mut self,
+        hub: HubMotion,
+        blades_by_azimuth: &[(f64, f64)],
+        circulation: &[f64],
+    ) -> Result<(), WakeError> {
+        let (n_psi, n_r) = (self.options.steps_per_revolution, self.options.n_stations);
+        hub.validate()?;
+        length("blades_by_azimuth", blades_by_azimuth.len(), n_psi)?;
+        length("circulation", circulation.len(), n_psi * n_r)?;
+        if let Some(index) = blades_by_azimuth.iter().position(|b| !(b.0.is_finite() && b.1.is_finite())) {
+            return Err(WakeError::InputNotFinite { field: "blades_by_azimuth", index });
+        }
+        finite("circulation", circulation)?;
+        self.hub = hub;
+        self.circulation.copy_from_slice(circulation);
+        let n_sheet = self.options.sheet_filaments();
+        for (l, gamma) in circulation.chunks_exact(n_r).enumerate() {
+            let tip = tip_circulation(&self.options, &self.grid, gamma);
+            self.tip_circulation[l] = tip;
+            if n_sheet > 0 {
+                let sheet = inboard_sheet::strengths(&self.options, &self.grid, gamma, tip);
+                self.sheet_strength[l * n_sheet..(l + 1) * n_sheet].copy_from_slice(&sheet);
+            }
+        }
+        let before = self.release.clone();
+        self.place(blades_by_azimuth);
+        if self.sweeps == 0 {
+            self.restart();
+        } else {
+            for l in 0..n_psi {
+                for k in 0..=self.options.n_segments() {
+                    let (old, new) = (before[self.row(l, k)], self.release[self.row(l, k)]);
+                    let i = self.index(l, k);
+                    for c in 0..3 {
+                        self.position[i][c] += new[c] - old[c];
+                    }
+                }
+                let i = self.index(l, 0);
+                self.position[i] = self.release[l];
+            }
+        }
+        Ok(())
+    }
+
+    /// Mean induced inflow v/(omega R) that carries the inboard sheet.
+    pub fn set_mean_inflow(&mut self, mean_inflow: f64) -> Result<(), WakeError> {
+        finite("mean_inflow", &[mean_inflow])?;
+        self.mean_inflow = mean_inflow;
+        Ok(())
+    }
+
+    /// Relaxation factor of the sweeps, more than 0, up to 1.
+    pub fn set_relaxation(&mut self, relaxation: f64) -> Result<(), WakeError> {
+        let options = WakeOptions { relaxation, ..self.options.clone() };
+        options.validate()?;
+        self.options = options;
+        Ok(())
+    }
+
+    /// Does `n` sweeps and returns the change of each. Not converging is no error; positions that are not finite are,
+    /// and leave the geometry as it was before that sweep.
+    pub fn sweep(&mut self, n: usize) -> Result<Vec<Norms>, WakeError> {
+        (0..n).map(|_| self.sweep_once()).collect()
+    }
+
+    /// Options.
+    pub fn options(&self) -> &WakeOptions {
+        &self.options
+    }
+
+    /// Radial grid.
+    pub fn grid(&self) -> &BladeGrid {
+        &self.grid
+    }
+
+    /// Markers (n_azimuths, n_segments + 1) [m, `_h`].
+    pub fn position(&self) -> &[[f64; 3]] {
+        &self.position
+    }
+
+    /// Core radii of the segments (n_azimuths, n_segments) [m].
+    pub fn core_radius(&self) -> Vec<f64> {
+        self.core_squared.iter().map(|c| c.sqrt()).collect()
+    }
+
+    /// Circulation of the tip vortex released at every azimuth (n_azimuths) [m2/s].
+    pub fn tip_circulation(&self) -> &[f64] {
+        &self.tip_circulation
+    }
+
+    /// Segment evaluations so far.
+    pub fn segment_evaluations(&self) -> u64 {
+        self.evaluations
+    }
+
+    /// Sweeps so far.
+    pub fn sweeps(&self) -> u64 {
+        self.sweeps
+    }
+
+    /// Induced inflow at the stations without that of the own near wake, -v_z/(omega R) (n_azimuths, n_stations).
+    pub fn inflow_far(&mut self) -> Vec<f64> {
+        let (n_psi, n_r) = (self.options.steps_per_revolution, self.options.n_stations);
+        let mut inflow = vec![0.0; n_psi * n_r];
+        for l in 0..n_psi / self.options.n_blades {
+            let instant = self.instant_of(l, &self.position, &self.core_squared);
+            let (lambda, evaluations) = station_inflow(&self.field, &self.options, &instant);
+            self.evaluations += evaluations;
+            for (blade, values) in lambda.chunks_exact(n_r).enumerate() {
+                let row = self.blade_row(l, blade);
+                inflow[row * n_r..(row + 1) * n_r].copy_from_slice(values);
+            }
+        }
+        inflow
+    }
+
+    /// Velocity induced at `points` [m/s, `_h`] by rotor and wake with blade 1 at the azimuth of row `azimuth_index`
+    /// (periodic); near-wake trailers not included.
+    pub fn wake_velocity(&self, points: &[[f64; 3]], azimuth_index: usize) -> Vec<[f64; 3]> {
+        point_velocity(&self.field, &self.options, &self.instant(azimuth_index), points)
+    }
+
+    /// Rotor and wake with blade 1 at the azimuth of row `azimuth_index` (periodic).
+    pub fn instant(&self, azimuth_index: usize) -> RotorInstant {
+        self.instant_of(azimuth_index % self.options.steps_per_revolution, &self.position, &self.core_squared)
+    }
+
+    /// Index of marker `k` of row `l`.
+    pub(crate) fn index(&self, l: usize, k: usize) -> usize {
+        l * (self.options.n_segments() + 1) + k
+    }
+
+    /// Row `k` steps before row `l`.
+    pub(crate) fn row(&self, l: usize, k: usize) -> usize {
+        let n = self.options.steps_per_revolution;
+        (l + n - k % n) % n
+    }
+
+    /// Row of blade `blade` when blade 1 is at row `l`.
+    pub(crate) fn blade_row(&self, l: usize, blade: usize) -> usize {
+        let n = self.options.steps_per_revolution;
+        (l + blade * (n / self.options.n_blades)) % n
+    }
+
+    /// Azimuth of row `l` [rad].
+    fn azimuth(&self, l: usize) -> f64 {
+        TAU * l as f64 / self.options.steps_per_revolution as f64
+    }
+
+    /// Puts the blade at every azimuth.
+    fn place(&mut self, flap_lead: &[(f64, f64)]) {
+        let n_sheet = self.options.sheet_filaments();
+        for (l, (flap, lead)) in flap_lead.iter().enumerate() {
+            let blade = BladeState { psi: self.azimuth(l), flap: *flap, lead: *lead };
+            self.blades[l] = blade;
+            self.release[l] = release_point(&self.options, &blade);
+            if n_sheet > 0 {
+                let points = inboard_sheet::release_points(&self.options, &blade);
+                self.sheet_release[l * n_sheet..(l + 1) * n_sheet].copy_from_slice(&points);
+            }
+        }
+    }
+
+    /// Sets the geometry to the rigid guess.
+    fn restart(&mut self) {
+        let delta = self.options.delta_psi();
+        for l in 0..self.options.steps_per_revolution {
+            for k in 0..=self.options.n_segments() {
+                let release = self.release[self.row(l, k)];
+                let i = self.index(l, k);
+                self.position[i] =
+                    initial::tip_vortex(&self.options, &self.hub, self.mean_inflow, release, k as f64 * delta);
+            }
+        }
+        self.core_squared = self.cores(&self.position);
+    }
+
+    /// Squares of the core radii that belong to a geometry.
+    fn cores(&self, position: &[[f64; 3]]) -> Vec<f64> {
+        let n_k = self.options.n_segments();
+        if !self.options.core_stretching {
+            return self.core_squared.clone();
+        }
+        let mut cores = self.core_squared.clone();
+        let span = |l: usize, k: usize| distance(position[self.index(l, k)], position[self.index(l, k + 1)]);
+        for k in 1..n_k {
+            for l in 0..self.options.steps_per_revolution {
+                let past = self.row(l, 1);
+                cores[l * n_k + k] = stretched_core_squared(
+                    &self.options,
+                    cores[past * n_k + k - 1],
+                    span(past, k - 1),
+                    span(l, k),
+                );
+            }
+        }
+        cores
+    }
+
+    /// Rotor and wake at row `l` with a given geometry.
+    fn instant_of(&self, l: usize, position: &[[f64; 3]], core_squared: &[f64]) -> RotorInstant {
+        let options = &self.options;
+        let (n_k, n_r, n_sheet) = (options.n_segments(), options.n_stations, options.sheet_filaments());
+        let carry = inboard_sheet::convection(options, &self.hub, self.mean_inflow);
+        let mut instant = RotorInstant::new(options);
+        for blade in 0..options.n_blades {
+            let row = self.blade_row(l, blade);
+            instant.place_blade(
+                options,
+                &self.grid,
+                blade,
+                &self.blades[row],
+                &self.circulation[row * n_r..(row + 1) * n_r],
+            );
+            let from = self.index(row, 0);
+            let to = instant.tip.marker(blade, 0);
+            instant.tip.position[to..=to + n_k].copy_from_slice(&position[from..=from + n_k]);
+            instant.tip.core_squared[blade * n_k..(blade + 1) * n_k]
+                .copy_from_slice(&core_squared[row * n_k..(row + 1) * n_k]);
+            for k in 0..=n_k {
+                let born = self.row(row, k);
+                instant.tip.circulation[to + k] = self.tip_circulation[born];
+                let age = k as f64 * options.delta_psi() / options.omega;
+                for s in 0..n_sheet {
+                    let m = instant.sheet.marker(blade * n_sheet + s, k);
+                    instant.sheet.position[m] = sum(self.sheet_release[born * n_sheet + s], carry.map(|v| v * age));
+                    instant.sheet.circulation[m] = self.sheet_strength[born * n_sheet + s];
+                }
+            }
+        }
+        instant
+    }
+
+    /// Velocity over omega of every marker of a geometry (n_azimuths, n_segments + 1) [m].
+    fn velocity(&mut self, position: &[[f64; 3]], core_squared: &[f64]) -> Vec<[f64; 3]> {
+        let n_k = self.options.n_segments();
+        let mut velocity = vec![[0.0; 3]; position.len()];
+        let mut at_instant = Vec::new();
+        for l in 0..self.options.steps_per_revolution / self.options.n_blades {
+            let instant = self.instant_of(l, position, core_squared);
+            self.evaluations += marker_velocity(&self.field, &self.options, &instant, &self.hub, &mut at_instant);
+            for blade in 0..self.options.n_blades {
+                let to = self.index(self.blade_row(l, blade), 0);
+                let from = instant.tip.marker(blade, 0);
+                for k in 0..=n_k {
+                    velocity[to + k] = at_instant[from + k].map(|v| v / self.options.omega);
+                }
+            }
+        }
+        velocity
+    }
+
+    /// Geometry from a velocity field: every marker advanced along its characteristic.
+    fn advanced(&self, velocity: &[[f64; 3]]) -> Vec<[f64; 3]> {
+        let step = self.options.delta_psi();
+        let mut position = vec![[0.0; 3]; self.position.len()];
+        for l in 0..self.options.steps_per_revolution {
+            position[self.index(l, 0)] = self.release[l];
+        }
+        for k in 1..=self.options.n_segments() {
+            for l in 0..self.options.steps_per_revolution {
+                let past = self.row(l, 1);
+                let (a, b) = (self.index(l, k), self.index(past, k));
+                let (c, d) = (self.index(l, k - 1), self.index(past, k - 1));
+                let advance: [f64; 3] = std::array::from_fn(|i| {
+                    step * 0.25 * (velocity[a][i] + velocity[b][i] + velocity[c][i] + velocity[d][i])
+                });
+                position[a] = stencils::central(position[d], advance);
+            }
+        }
+        position
+    }
+
+    fn sweep_once(&mut self) -> Result<Norms, WakeError> {
+        let position = std::mem::take(&mut self.position);
+        let core_squared = std::mem::take(&mut self.core_squared);
+        let mut velocity = self.velocity(&position, &core_squared);
+        self.position = position;
+        self.core_squared = core_squared;
+
+        let predicted = self.advanced(&velocity);
+        self.check(&predicted)?;
+        let predicted_core = self.cores(&predicted);
+        let at_predicted = self.velocity(&predicted, &predicted_core);
+        // pseudo-implicit: the predicted geometry enters with half weight
+        for (v, p) in velocity.iter_mut().zip(&at_predicted) {
+            for c in 0..3 {
+                v[c] = 0.5 * (v[c] + p[c]);
+            }
+        }
+        let corrected = self.advanced(&velocity);
+        self.check(&corrected)?;
+
+        let n_k = self.options.n_segments();
+        let first = self.options.steps_per_revolution;
+        let (mut all, mut first_turn) = (0.0, 0.0);
+        for (i, new) in corrected.iter().enumerate() {
+            let k = i % (n_k + 1);
+            let mut change = 0.0;
+            for c in 0..3 {
+                // blades may have moved since the last sweep: the release points follow them fully
+                let weight = if k == 0 { 1.0 } else { self.options.relaxation };
+                let delta = weight * (new[c] - self.position[i][c]);
+                self.position[i][c] = if k == 0 { new[c] } else { self.position[i][c] + delta };
+                change += delta * delta;
+            }
+            all += change;
+            if k <= first {
+                first_turn += change;
+            }
+        }
+        self.core_squared = self.cores(&self.position);
+        self.sweeps += 1;
+        let n_psi = self.options.steps_per_revolution as f64;
+        Ok(Norms {
+            all: (all / (n_psi * (n_k + 1) as f64)).sqrt() / self.options.radius,
+            first_turn: (first_turn / (n_psi * (first + 1) as f64)).sqrt() / self.options.radius,
+        })
+    }
+
+    /// Refuses a geometry that is not finite.
+    fn check(&self, position: &[[f64; 3]]) -> Result<(), WakeError> {
+        match position.iter().position(|p| p.iter().any(|v| !v.is_finite())) {
+            None => Ok(()),
+            Some(i) => Err(WakeError::Diverged {
+                filament: i / (self.options.n_segments() + 1),
+                marker: i % (self.options.n_segments() + 1),
+                displacement: f64::NAN,
+                limit: f64::INFINITY,
+                step: self.sweeps + 1,
+            }),
+        }
+    }
+}

@@ -1,0 +1,413 @@
+//! Time-accurate wake: the tip vortices advance with the blades, step by step [bhagwat2001].
+
+use super::error::{WakeError, finite, length};
+use super::filament::{aged_core_squared, distance, stretched_core_squared};
+use super::geometry::{BladeGrid, release_point};
+use super::inboard_sheet;
+use super::options::{BladeState, Form, HubMotion, Predictor, Scheme, WakeOptions};
+use super::relaxation::RelaxationWake;
+use super::stencils::{Cell, unknown_corner};
+use super::tip_strength::tip_circulation;
+use super::velocity_field::{
+    InducedVelocity, RotorInstant, VortexSegments, marker_velocity, point_velocity, station_inflow, sum,
+};
+use std::f64::consts::TAU;
+
+/// Largest motion of a marker in one step, over R.
+const LARGEST_DISPLACEMENT: f64 = 0.5;
+
+/// What one step did.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StepReport {
+    /// Largest motion of a marker, over R.
+    pub max_displacement: f64,
+    /// RMS of r(n+1) - 2 r(n) + r(n-1) of the markers, over R: the size of an odd-even mode in time, on top of the
+    /// acceleration of the air.
+    pub odd_even: f64,
+    /// Segment evaluations of the step.
+    pub segment_evaluations: u64,
+}
+
+/// Tip vortices of every blade, marched in time with a fixed step of azimuth.
+///
+/// dr/dpsi + dr/dzeta = V/omega; one predictor and one corrector per step. Three levels of geometry are kept, and with
+/// every marker its circulation and the place of its release.
+#[derive(Clone, Debug)]
+pub struct TimeMarchingWake<F: InducedVelocity = VortexSegments> {
+    options: WakeOptions,
+    grid: BladeGrid,
+    field: F,
+    hub: HubMotion,
+    mean_inflow: f64,
+    blades: Vec<BladeState>,
+    instant: RotorInstant,
+    /// Place that the unknown is measured from: release of the marker, or the origin in position form.
+    carrier: Vec<[f64; 3]>,
+    /// Unknown at the levels n, n-1, n-2 (n_blades, n_segments + 1) [m].
+    levels: [Vec<[f64; 3]>; 3],
+    steps: u64,
+    evaluations: u64,
+}
+
+impl<F: InducedVelocity> TimeMarchingWake<F> {
+    /// Starts from a periodic wake with blade 1 at row `azimuth_index`; the past levels are the periodic ones.
+    pub fn from_relaxation(relaxation: &RelaxationWake<F>, azimuth_index: usize) -> Result<Self, WakeError> {
+        let options = relaxation.options.clone();
+        if azimuth_index >= options.steps_per_revolution {
+            return Err(WakeError::InvalidOption {
+                field: "azimuth_index",
+                value: azimuth_index.to_string(),
+                allowed: format!("less than steps_per_revolution = {}", options.steps_per_revolution),
+            });
+        }
+        let n_k = options.n_segments();
+        let instant = relaxation.instant(azimuth_index);
+        let mut carrier = Vec::with_capacity(options.n_blades * (n_k + 1));
+        let mut levels: [Vec<[f64; 3]>; 3] = Default::default();
+        let from = |row: usize, k: usize| match options.form {
+            Form::Displacement => relaxation.release[relaxation.row(row, k)],
+            Form::Position => [0.0; 3],
+        };
+        for blade in 0..options.n_blades {
+            let row = relaxation.blade_row(azimuth_index, blade);
+            for k in 0..=n_k {
+                carrier.push(from(row, k));
+                for (m, level) in levels.iter_mut().enumerate() {
+                    let past = relaxation.row(row, m);
+                    level.push(difference(relaxation.position[relaxation.index(past, k)], from(past, k)));
+                }
+            }
+        }
+        let blades = (0..options.n_blades)
+            .map(|blade| relaxation.blades[relaxation.blade_row(azimuth_index, blade)])
+            .collect();
+        Ok(TimeMarchingWake {
+            grid: relaxation.grid.clone(),
+            field: relaxation.field.clone(),
+            hub: relaxation.hub,
+            mean_inflow: relaxation.mean_inflow,
+            blades,
+            instant,
+            carrier,
+            levels,
+            steps: 0,
+            evaluations: 0,
+            options,
+        })
+    }
+
+    /// Advances by one step of azimuth to the given hub motion, blades (n_blades) and bound circulation
+    /// (n_blades, n_stations) [m2/s]. On an error the wake is unchanged.
+    pub fn step(
+        &mut self,
+        hub: HubMotion,
+        blades: &[BladeState],
+        circulation: &[f64],
+    ) -> Result<StepReport, WakeError> {
+        self.check_input(&hub, blades, circulation)?;
+        let options = &self.options;
+        let n_k = options.n_segments();
+        let mut evaluations = 0;
+
+        let mut velocity = Vec::new();
+        evaluations += marker_velocity(&self.field, options, &self.instant, &self.hub, &mut velocity);
+        let (mut next, carrier) = self.shifted(&hub, blades, circulation);
+
+        // predictor: both ends of the segment at the old level
+        let held = |i: usize| mean(velocity[i], velocity[i + 1]);
+        let predictor = match options.predictor {
+            Predictor::Same => options.scheme,
+            Predictor::Central => Scheme::Pcc,
+        };
+        let predicted = self.marched(predictor, &next, &carrier, held);
+        self.place_markers(&mut next, &carrier, &predicted);
+        self.guard(&next)?;
+
+        let mut at_new = Vec::new();
+        evaluations += marker_velocity(&self.field, options, &next, &hub, &mut at_new);
+        let corrected = match options.scheme {
+            Scheme::Bdf2 => self.marched(options.scheme, &next, &carrier, |i| mean(at_new[i], at_new[i + 1])),
+            Scheme::Pcc | Scheme::Pc2b => self.marched(options.scheme, &next, &carrier, |i| {
+                mean(mean(velocity[i], velocity[i + 1]), mean(at_new[i], at_new[i + 1]))
+            }),
+        };
+        self.place_markers(&mut next, &carrier, &corrected);
+        let max_displacement = self.guard(&next)?;
+
+        let mut curvature = 0.0;
+        for blade in 0..options.n_blades {
+            let m = next.tip.marker(blade, 0);
+            for i in m + 1..m + n_k {
+                for c in 0..3 {
+                    curvature += (corrected[i + 1][c] - 2.0 * self.levels[0][i][c] + self.levels[1][i - 1][c]).powi(2);
+                }
+            }
+        }
+        let n_inner = (options.n_blades * (n_k - 1)) as f64;
+        let odd_even = (curvature / n_inner).sqrt() / options.radius;
+
+        if options.time_filter > 0.0 {
+            for i in 0..corrected.len() {
+                for c in 0..3 {
+                    let second = corrected[i][c] - 2.0 * self.levels[0][i][c] + self.levels[1][i][c];
+                    self.levels[0][i][c] += self.options.time_filter * second;
+                }
+            }
+        }
+        self.levels.rotate_right(1);
+        self.levels[0] = corrected;
+        self.instant = next;
+        self.carrier = carrier;
+        self.hub = hub;
+        self.blades.copy_from_slice(blades);
+        self.steps += 1;
+        self.evaluations += evaluations;
+        Ok(StepReport { max_displacement, odd_even, segment_evaluations: evaluations })
+    }
+
+    /// Options.
+    pub fn options(&self) -> &WakeOptions {
+        &self.options
+    }
+
+    /// Radial grid.
+    pub fn grid(&self) -> &BladeGrid {
+        &self.grid
+    }
+
+    /// Markers (n_blades, n_segments + 1) [m, `_h`].
+    pub fn position(&self) -> &[[f64; 3]] {
+        &self.instant.tip.position
+    }
+
+    /// Circulation of the markers (n_blades, n_segments + 1) [m2/s].
+    pub fn marker_circulation(&self) -> &[f64] {
+        &self.instant.tip.circulation
+    }
+
+    /// Core radii of the segments (n_blades, n_segments) [m].
+    pub fn core_radius(&self) -> Vec<f64> {
+        self.instant.tip.core_squared.iter().map(|c| c.sqrt()).collect()
+    }
+
+    /// Blades at the present level.
+    pub fn blades(&self) -> &[BladeState] {
+        &self.blades
+    }
+
+    /// Rotor and wake at the present level.
+    pub fn instant(&self) -> &RotorInstant {
+        &self.instant
+    }
+
+    /// Steps so far.
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// Segment evaluations so far.
+    pub fn segment_evaluations(&self) -> u64 {
+        self.evaluations
+    }
+
+    /// Mean induced inflow v/(omega R) that carries the inboard sheet.
+    pub fn set_mean_inflow(&mut self, mean_inflow: f64) -> Result<(), WakeError> {
+        finite("mean_inflow", &[mean_inflow])?;
+        self.mean_inflow = mean_inflow;
+        Ok(())
+    }
+
+    /// Bound circulation of the present level (n_blades, n_stations) [m2/s], replaced without advancing the wake.
+    pub fn set_circulation(&mut self, circulation: &[f64]) -> Result<(), WakeError> {
+        length("circulation", circulation.len(), self.instant.circulation.len())?;
+        finite("circulation", circulation)?;
+        self.instant.circulation.copy_from_slice(circulation);
+        for (blade, gamma) in circulation.chunks_exact(self.options.n_stations).enumerate() {
+            release_circulation(&self.options, &self.grid, &mut self.instant, blade, gamma);
+        }
+        Ok(())
+    }
+
+    /// Induced inflow at the stations without that of the own near wake, -v_z/(omega R) (n_blades, n_stations).
+    pub fn inflow_far(&mut self) -> Vec<f64> {
+        let (inflow, evaluations) = station_inflow(&self.field, &self.options, &self.instant);
+        self.evaluations += evaluations;
+        inflow
+    }
+
+    /// Velocity induced at `points` [m/s, `_h`] by rotor and wake; near-wake trailers not included.
+    pub fn wake_velocity(&self, points: &[[f64; 3]]) -> Vec<[f64; 3]> {
+        point_velocity(&self.field, &self.options, &self.instant, points)
+    }
+
+    fn check_input(&self, hub: &HubMotion, blades: &[BladeState], circulation: &[f64]) -> Result<(), WakeError> {
+        hub.validate()?;
+        length("blades", blades.len(), self.options.n_blades)?;
+        length("circulation", circulation.len(), self.instant.circulation.len())?;
+        finite("circulation", circulation)?;
+        for (old, new) in self.blades.iter().zip(blades) {
+            new.validate()?;
+            let ahead = new.psi - old.psi - self.options.delta_psi();
+            let off = (ahead + 0.5 * TAU).rem_euclid(TAU) - 0.5 * TAU;
+            if off.abs() > 1e-6 {
+                return Err(WakeError::InvalidOption {
+                    field: "blade psi",
+                    value: new.psi.to_string(),
+                    allowed: format!("one step of {} rad after {}", self.options.delta_psi(), old.psi),
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// Registers of the new level: everything that travels with the markers moves on by one, the blades release anew.
+    /// Markers are still those of the old level.
+    fn shifted(
+        &self,
+        hub: &HubMotion,
+        blades: &[BladeState],
+        circulation: &[f64],
+    ) -> (RotorInstant, Vec<[f64; 3]>) {
+        let options = &self.options;
+        let (n_k, n_r, n_sheet) = (options.n_segments(), options.n_stations, options.sheet_filaments());
+        let mut next = self.instant.clone();
+        let mut carrier = self.carrier.clone();
+        let old_carry = inboard_sheet::convection(options, &self.hub, self.mean_inflow);
+        let new_carry = inboard_sheet::convection(options, hub, self.mean_inflow);
+        let drift = mean(old_carry, new_carry).map(|v| v * options.delta_psi() / options.omega);
+        for (blade, state) in blades.iter().enumerate() {
+            let gamma = &circulation[blade * n_r..(blade + 1) * n_r];
+            next.place_blade(options, &self.grid, blade, state, gamma);
+            let m = next.tip.marker(blade, 0);
+            next.tip.circulation.copy_within(m..m + n_k, m + 1);
+            carrier.copy_within(m..m + n_k, m + 1);
+            let release = release_point(options, state);
+            carrier[m] = match options.form {
+                Form::Displacement => release,
+                Form::Position => [0.0; 3],
+            };
+            next.tip.position[m] = release;
+            if n_sheet > 0 {
+                for (s, point) in inboard_sheet::release_points(options, state).into_iter().enumerate() {
+                    let m = next.sheet.marker(blade * n_sheet + s, 0);
+                    next.sheet.circulation.copy_within(m..m + n_k, m + 1);
+                    for k in (1..=n_k).rev() {
+                        next.sheet.position[m + k] = sum(self.instant.sheet.position[m + k - 1], drift);
+                    }
+                    next.sheet.position[m] = point;
+                }
+            }
+            release_circulation(options, &self.grid, &mut next, blade, gamma);
+        }
+        (next, carrier)
+    }
+
+    /// Unknown at the new level by `scheme`; `velocity(i)` is the mean V of the cell whose marker k is `i` [m/s].
+    fn marched(
+        &self,
+        scheme: Scheme,
+        next: &RotorInstant,
+        carrier: &[[f64; 3]],
+        velocity: impl Fn(usize) -> [f64; 3],
+    ) -> Vec<[f64; 3]> {
+        let [now, past, older] = &self.levels;
+        let scale = self.options.delta_psi() / self.options.omega;
+        let mut new = vec![[0.0; 3]; now.len()];
+        for blade in 0..self.options.n_blades {
+            let m = next.tip.marker(blade, 0);
+            new[m] = difference(next.tip.position[m], carrier[m]);
+            for i in m..m + self.options.n_segments() {
+                let advance = velocity(i).map(|v| v * scale);
+                let cell = Cell {
+                    b: now[i + 1],
+                    c: new[i],
+                    d: now[i],
+                    e: past[i + 1],
+                    f: past[i],
+                    g: older[i + 1],
+                    h: older[i],
+                };
+                new[i + 1] = unknown_corner(scheme, &cell, advance);
+            }
+        }
+        new
+    }
+
+    /// Positions and cores of the new level from its unknown.
+    fn place_markers(&self, next: &mut RotorInstant, carrier: &[[f64; 3]], unknown: &[[f64; 3]]) {
+        let n_k = self.options.n_segments();
+        for (i, position) in next.tip.position.iter_mut().enumerate() {
+            if i % (n_k + 1) != 0 {
+                *position = sum(carrier[i], unknown[i]);
+            }
+        }
+        if !self.options.core_stretching {
+            return;
+        }
+        let old = &self.instant.tip;
+        for blade in 0..self.options.n_blades {
+            next.tip.core_squared[blade * n_k] = aged_core_squared(&self.options, 0);
+            for k in 1..n_k {
+                next.tip.core_squared[blade * n_k + k] = stretched_core_squared(
+                    &self.options,
+                    old.core_squared[blade * n_k + k - 1],
+                    old.segment_length(blade, k - 1),
+                    next.tip.segment_length(blade, k),
+                );
+            }
+        }
+    }
+
+    /// Largest motion of a marker over R; an error beyond the limit or if a position is not finite.
+    fn guard(&self, next: &RotorInstant) -> Result<f64, WakeError> {
+        let mut largest: f64 = 0.0;
+        for filament in 0..self.options.n_blades {
+            let m = next.tip.marker(filament, 0);
+            for k in 1..=self.options.n_segments() {
+                let displacement =
+                    distance(next.tip.position[m + k], self.instant.tip.position[m + k - 1]) / self.options.radius;
+                if displacement.is_nan() || displacement > LARGEST_DISPLACEMENT {
+                    return Err(WakeError::Diverged {
+                        filament,
+                        marker: k,
+                        displacement,
+                        limit: LARGEST_DISPLACEMENT,
+                        step: self.steps + 1,
+                    });
+                }
+                largest = largest.max(displacement);
+            }
+        }
+        Ok(largest)
+    }
+}
+
+/// Circulation that a blade releases into the first markers of its filaments.
+fn release_circulation(
+    options: &WakeOptions,
+    grid: &BladeGrid,
+    instant: &mut RotorInstant,
+    blade: usize,
+    gamma: &[f64],
+) {
+    let tip = tip_circulation(options, grid, gamma);
+    let m = instant.tip.marker(blade, 0);
+    instant.tip.circulation[m] = tip;
+    let n_sheet = options.sheet_filaments();
+    if n_sheet > 0 {
+        for (s, strength) in inboard_sheet::strengths(options, grid, gamma, tip).into_iter().enumerate() {
+            let m = instant.sheet.marker(blade * n_sheet + s, 0);
+            instant.sheet.circulation[m] = strength;
+        }
+    }
+}
+
+/// Mean of two vectors.
+fn mean(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|c| 0.5 * (a[c] + b[c]))
+}
+
+/// Difference of two vectors.
+fn difference(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|c| a[c] - b[c])
+}

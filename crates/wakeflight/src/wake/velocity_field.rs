@@ -1,0 +1,280 @@
+//! Velocity of the air relative to the hub axes: every vortex of the rotor at one instant, and the wind.
+
+use super::filament::Filaments;
+use super::geometry::{BladeGrid, blade_point};
+use super::options::{BladeState, CoreDistance, HubMotion, WakeOptions};
+use crate::vortex::core::{Core, curvature_velocity};
+use crate::vortex::induced_velocity::{Segments, add_induced_velocity_with};
+
+/// Where induced velocity comes from.
+pub trait InducedVelocity: Clone + Send + Sync {
+    /// Adds to `velocity` the induced velocity at `points` [m/s, `_h`], given every vortex segment.
+    fn add(&self, points: &[[f64; 3]], segments: &Segments, velocity: &mut [[f64; 3]]);
+
+    /// Velocity that a marker owes to the curvature of its own filament [m/s], given its neighbours.
+    fn self_induced(
+        &self,
+        prev: [f64; 3],
+        here: [f64; 3],
+        next: [f64; 3],
+        circulation: f64,
+        core_radius: f64,
+    ) -> [f64; 3];
+}
+
+/// Induction of the straight vortex segments, core of Vatistas n = 2.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VortexSegments {
+    /// Distance in the core factor.
+    pub core_distance: CoreDistance,
+    /// Whether markers get the velocity of the arc that their two chords lack.
+    pub curvature_correction: bool,
+}
+
+impl VortexSegments {
+    /// As the options say.
+    pub fn new(options: &WakeOptions) -> Self {
+        Self { core_distance: options.core_distance, curvature_correction: options.curvature_correction }
+    }
+}
+
+impl InducedVelocity for VortexSegments {
+    fn add(&self, points: &[[f64; 3]], segments: &Segments, velocity: &mut [[f64; 3]]) {
+        add_segment_velocity(points, segments, self.core_distance, velocity);
+    }
+
+    fn self_induced(
+        &self,
+        prev: [f64; 3],
+        here: [f64; 3],
+        next: [f64; 3],
+        circulation: f64,
+        core_radius: f64,
+    ) -> [f64; 3] {
+        if self.curvature_correction {
+            curvature_velocity(prev, here, next, circulation, core_radius)
+        } else {
+            [0.0; 3]
+        }
+    }
+}
+
+/// Induced velocity prescribed as a function of the point [m -> m/s, `_h`], whatever the vortices.
+#[derive(Clone, Copy, Debug)]
+pub struct Prescribed<F>(pub F);
+
+impl<F: Fn([f64; 3]) -> [f64; 3] + Clone + Send + Sync> InducedVelocity for Prescribed<F> {
+    fn add(&self, points: &[[f64; 3]], _segments: &Segments, velocity: &mut [[f64; 3]]) {
+        for (v, p) in velocity.iter_mut().zip(points) {
+            add_to(v, (self.0)(*p));
+        }
+    }
+
+    fn self_induced(&self, _: [f64; 3], _: [f64; 3], _: [f64; 3], _: f64, _: f64) -> [f64; 3] {
+        [0.0; 3]
+    }
+}
+
+/// The one door to the segment law.
+pub(crate) fn add_segment_velocity(
+    points: &[[f64; 3]],
+    segments: &Segments,
+    core_distance: CoreDistance,
+    velocity: &mut [[f64; 3]],
+) {
+    add_induced_velocity_with(points, segments, Core::Vatistas2, core_distance, velocity);
+}
+
+/// The rotor and its wake at one instant.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RotorInstant {
+    /// Tip vortices, one per blade.
+    pub tip: Filaments,
+    /// Filaments of the inboard sheet, blade after blade; none without a sheet.
+    pub sheet: Filaments,
+    /// Edges of the bound elements (n_blades, n_stations + 1) [m, `_h`].
+    pub edge: Vec<[f64; 3]>,
+    /// Stations (n_blades, n_stations) [m, `_h`].
+    pub station: Vec<[f64; 3]>,
+    /// Bound circulation (n_blades, n_stations) [m2/s].
+    pub circulation: Vec<f64>,
+}
+
+impl RotorInstant {
+    /// Blades and empty filaments.
+    pub fn new(options: &WakeOptions) -> Self {
+        RotorInstant {
+            tip: Filaments::new(options, options.n_blades),
+            sheet: Filaments::new(options, options.n_blades * options.sheet_filaments()),
+            edge: vec![[0.0; 3]; options.n_blades * (options.n_stations + 1)],
+            station: vec![[0.0; 3]; options.n_blades * options.n_stations],
+            circulation: vec![0.0; options.n_blades * options.n_stations],
+        }
+    }
+
+    /// Places blade `i_blade` with its bound circulation (n_stations) [m2/s].
+    pub fn place_blade(
+        &mut self,
+        options: &WakeOptions,
+        grid: &BladeGrid,
+        i_blade: usize,
+        blade: &BladeState,
+        circulation: &[f64],
+    ) {
+        let n = options.n_stations;
+        for (j, r) in grid.edges.iter().enumerate() {
+            self.edge[i_blade * (n + 1) + j] = blade_point(options, blade, *r);
+        }
+        for (j, r) in grid.stations.iter().enumerate() {
+            self.station[i_blade * n + j] = blade_point(options, blade, *r);
+        }
+        self.circulation[i_blade * n..(i_blade + 1) * n].copy_from_slice(circulation);
+    }
+
+    /// Every segment in its fixed order. Seen from the stations of `own_blade`: without its bound vortex, its filaments
+    /// beyond the near wake only, and no core smaller than the floor.
+    pub fn segments(&self, options: &WakeOptions, own_blade: Option<usize>) -> Segments {
+        let mut segments = Segments::default();
+        let floor = match own_blade {
+            Some(_) => options.station_core_floor * options.chord,
+            None => 0.0,
+        };
+        let n_sheet = options.sheet_filaments();
+        let first = |blade: usize| if own_blade == Some(blade) { options.near_wake_markers() } else { 0 };
+        for i in 0..self.tip.n_filaments {
+            push_filament(&mut segments, options, &self.tip, i, first(i), floor);
+        }
+        for i in 0..self.sheet.n_filaments {
+            push_filament(&mut segments, options, &self.sheet, i, first(i / n_sheet), floor);
+        }
+        let n = options.n_stations;
+        let bound_core = (options.bound_core * options.chord).max(floor);
+        for blade in (0..options.n_blades).filter(|b| own_blade != Some(*b)) {
+            for j in 0..n {
+                let edge = blade * (n + 1) + j;
+                push(&mut segments, self.edge[edge], self.edge[edge + 1], self.circulation[blade * n + j], bound_core);
+            }
+        }
+        segments
+    }
+}
+
+/// Appends one segment.
+pub(crate) fn push(segments: &mut Segments, start: [f64; 3], end: [f64; 3], circulation: f64, core_radius: f64) {
+    segments.start.push(start);
+    segments.end.push(end);
+    segments.circulation.push(circulation);
+    segments.core_radius.push(core_radius);
+}
+
+/// Appends filament `i` from marker `first` on, and the displaced repeats of its last turn (the far wake).
+fn push_filament(
+    segments: &mut Segments,
+    options: &WakeOptions,
+    filaments: &Filaments,
+    i: usize,
+    first: usize,
+    floor: f64,
+) {
+    let n = filaments.n_segments;
+    let m = filaments.marker(i, 0);
+    let mut segment = |k: usize, shift: [f64; 3]| {
+        let (a, b) = (filaments.position[m + k], filaments.position[m + k + 1]);
+        let strength = 0.5 * (filaments.circulation[m + k] + filaments.circulation[m + k + 1]);
+        let core = filaments.core_squared[i * n + k].sqrt().max(floor);
+        push(segments, sum(a, shift), sum(b, shift), strength, core);
+    };
+    for k in first..n {
+        segment(k, [0.0; 3]);
+    }
+    if options.far_wake_turns == 0 {
+        return;
+    }
+    // mean displacement of the markers over the last turn
+    let turn = options.steps_per_revolution;
+    let mut pitch = [0.0; 3];
+    for k in n + 1 - turn..=n {
+        let (a, b) = (filaments.position[m + k - turn], filaments.position[m + k]);
+        for c in 0..3 {
+            pitch[c] += (b[c] - a[c]) / turn as f64;
+        }
+    }
+    for repeat in 1..=options.far_wake_turns {
+        let shift = pitch.map(|s| s * repeat as f64);
+        for k in n - turn..n {
+            segment(k, shift);
+        }
+    }
+}
+
+/// Velocity of the markers of the tip vortices relative to the hub axes, with the wind [m/s, `_h`]; also the number of
+/// segment evaluations.
+pub fn marker_velocity<F: InducedVelocity>(
+    field: &F,
+    options: &WakeOptions,
+    instant: &RotorInstant,
+    hub: &HubMotion,
+    velocity: &mut Vec<[f64; 3]>,
+) -> u64 {
+    let tip = &instant.tip;
+    velocity.clear();
+    velocity.extend(tip.position.iter().map(|p| hub.wind(*p)));
+    let segments = instant.segments(options, None);
+    field.add(&tip.position, &segments, velocity);
+    for i in 0..tip.n_filaments {
+        for k in 1..tip.n_segments {
+            let m = tip.marker(i, k);
+            let core = (0.5 * (tip.core_squared[i * tip.n_segments + k - 1] + tip.core_squared[i * tip.n_segments + k])).sqrt();
+            let local = field.self_induced(
+                tip.position[m - 1],
+                tip.position[m],
+                tip.position[m + 1],
+                tip.circulation[m],
+                core,
+            );
+            add_to(&mut velocity[m], local);
+        }
+    }
+    (tip.position.len() * segments.start.len()) as u64
+}
+
+/// Induced inflow at the blade stations without that of the own near wake, -v_z/(omega R) (n_blades, n_stations); also
+/// the number of segment evaluations.
+pub fn station_inflow<F: InducedVelocity>(field: &F, options: &WakeOptions, instant: &RotorInstant) -> (Vec<f64>, u64) {
+    let n = options.n_stations;
+    let mut inflow = Vec::with_capacity(options.n_blades * n);
+    let mut evaluations = 0;
+    let mut velocity = vec![[0.0; 3]; n];
+    for blade in 0..options.n_blades {
+        let segments = instant.segments(options, Some(blade));
+        velocity.fill([0.0; 3]);
+        field.add(&instant.station[blade * n..(blade + 1) * n], &segments, &mut velocity);
+        inflow.extend(velocity.iter().map(|v| -v[2] / options.tip_speed()));
+        evaluations += (n * segments.start.len()) as u64;
+    }
+    (inflow, evaluations)
+}
+
+/// Velocity induced by rotor and wake at `points` [m/s, `_h`]; bound vortices included, near-wake trailers not.
+pub fn point_velocity<F: InducedVelocity>(
+    field: &F,
+    options: &WakeOptions,
+    instant: &RotorInstant,
+    points: &[[f64; 3]],
+) -> Vec<[f64; 3]> {
+    let mut velocity = vec![[0.0; 3]; points.len()];
+    field.add(points, &instant.segments(options, None), &mut velocity);
+    velocity
+}
+
+/// Sum of two vectors.
+pub(crate) fn sum(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
+}
+
+/// Adds `b` to `a`.
+pub(crate) fn add_to(a: &mut [f64; 3], b: [f64; 3]) {
+    for c in 0..3 {
+        a[c] += b[c];
+    }
+}
