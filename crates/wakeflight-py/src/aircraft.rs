@@ -228,14 +228,16 @@ impl PyAircraft {
         Ok(Array::from_shape_vec((n, n), j).map_err(invalid)?.into_pyarray(py))
     }
 
-    /// State y at the start of the trimmed flight.
+    /// State and its rate at time `t` of the trimmed revolution.
     fn trim_state<'py>(
         &self,
         py: Python<'py>,
         problem: &PyTrimProblem,
         x: PyReadonlyArray1<f64>,
-    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        Ok(self.inner.trim_state(&problem.0, x.as_slice()?).into_pyarray(py))
+        t: f64,
+    ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>)> {
+        let (y, y_dot) = self.inner.trim_state(&problem.0, x.as_slice()?, t);
+        Ok((y.into_pyarray(py), y_dot.into_pyarray(py)))
     }
 
     /// Stabilator incidence in trim [rad].

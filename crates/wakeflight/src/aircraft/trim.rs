@@ -343,15 +343,16 @@ impl Aircraft {
         }
     }
 
-    /// State y at t = 0 of the trimmed flight.
-    pub fn trim_state(&self, problem: &TrimProblem, x: &[f64]) -> Vec<f64> {
+    /// State and its rate at time `t` of the trimmed revolution; body accelerations and attitude rates are left at zero.
+    pub fn trim_state(&self, problem: &TrimProblem, x: &[f64], t: f64) -> (Vec<f64>, Vec<f64>) {
         let layout = self.trim_layout(problem);
         let mut y = self.trim_body_state(problem, x);
+        let mut y_dot = vec![0.0; y.len()];
         for b in 0..self.rotor.n_blades {
-            let m = self.periodic_motion(&layout, x, self.rotor.azimuth(0.0, b));
+            let m = self.periodic_motion(&layout, x, self.rotor.azimuth(self.rotor.omega * t, b));
             for (k, (q, s)) in self.layout.modal(b).zip(self.layout.modal_rate(b)).enumerate() {
-                y[q] = m.q[k];
-                y[s] = m.q_dot[k];
+                (y[q], y[s]) = (m.q[k], m.q_dot[k]);
+                (y_dot[q], y_dot[s]) = (m.q_dot[k], m.q_ddot[k]);
             }
         }
         if layout.dynamic_inflow && self.layout.dynamic_inflow {
@@ -361,7 +362,7 @@ impl Aircraft {
         if layout.tail_rotor {
             y[self.layout.tail_inflow().start] = x[layout.tail_inflow()];
         }
-        y
+        (y, y_dot)
     }
 
     /// Inputs that hold the trim: sticks, stabilator, and the inflow given.

@@ -1,0 +1,99 @@
+"""What the flight gets from an inflow model at every exchange, and what it gives: the three models behind one door."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from . import _core
+from .model import Model
+
+if TYPE_CHECKING:
+    from .wake_trim import WakeInTrim
+
+
+class MarchingExchange:
+    """Time-marching free wake, exchanged every coupling step [ribera2004, bhagwat2001]."""
+
+    def __init__(self, model: Model, trimmed: WakeInTrim):
+        self.model = model
+        self.n = model.steps_per_revolution
+        self.wake = _core.TimeMarchingWake.from_relaxation(trimmed.relaxation, 0)
+        self.step_index = 0
+        rows = self._rows(0)
+        self.lambda_far = trimmed.lambda_far[rows]
+        self.circulation = trimmed.circulation[rows]
+        self.inflow = trimmed.inflow_map[rows]
+        self.monitors = {"max_displacement": 0.0, "odd_even": 0.0}
+        self.circulation_not_converged = 0
+        self._before: np.ndarray | None = None
+
+    def _rows(self, step: int) -> list[int]:
+        """Azimuth index of every blade after `step` steps."""
+        return [(step + b * self.n // self.model.n_blades) % self.n for b in range(self.model.n_blades)]
+
+    @property
+    def psi(self) -> np.ndarray:
+        """Azimuth of every blade [rad]."""
+        return 2 * np.pi * np.asarray(self._rows(self.step_index)) / self.n
+
+    def advance(
+        self, y: np.ndarray, stick: np.ndarray, stick_rate: np.ndarray, q: np.ndarray, q_dot: np.ndarray
+    ) -> np.ndarray:
+        """States have reached the next step: circulation from the held far inflow, wake one step, inflow anew.
+
+        q, q_dot (n_blades, n_modes) at the new azimuths. Returns the total inflow (n_blades, n_stations).
+        """
+        self.step_index += 1
+        core = self.model.core
+        self._solve(y, stick, stick_rate, q, q_dot)
+        hub_velocity, hub_rates = core.hub(y)
+        flap, lead = core.equivalent_angles(q)
+        report = self.wake.step(hub_velocity, hub_rates, self.psi, flap, lead, self.circulation)
+        self.monitors = {"max_displacement": report["max_displacement"], "odd_even": report["odd_even"]}
+        far = self.wake.inflow_far()
+        self._before, self.lambda_far = self.lambda_far, far
+        self._solve(y, stick, stick_rate, q, q_dot)
+        for _ in range(self.model.inflow.recorrect):
+            # option: inflow of the wake with the circulation just found, wake not advanced again
+            self.lambda_far = self.wake.inflow_far_with(self.circulation)
+            self._solve(y, stick, stick_rate, q, q_dot)
+        return self.inflow
+
+    def _solve(
+        self, y: np.ndarray, stick: np.ndarray, stick_rate: np.ndarray, q: np.ndarray, q_dot: np.ndarray
+    ) -> None:
+        self.circulation, self.inflow, _, failed = self.model.core.solve_circulation(
+            self.model.wake_options, y, stick, stick_rate, self.psi, q, q_dot, self.lambda_far, self.circulation
+        )
+        self.circulation_not_converged += failed
+
+    def frozen_step(self, problem: _core.TrimProblem, x: np.ndarray) -> tuple[list[int], np.ndarray, np.ndarray]:
+        """One step with states and controls of the trim, circulation following the inflow."""
+        core = self.model.core
+        if getattr(self, "_frozen", None) is None or self._frozen[0] is not problem:
+            q, q_dot = core.trim_motion(problem, x, self.n)
+            self._frozen = (problem, q, q_dot, core.trim_state(problem, x, 0.0)[0])
+        _, q, q_dot, y = self._frozen
+        rows = self._rows(self.step_index + 1)
+        self.advance(y, x[:4], np.zeros(4), q[rows], q_dot[rows])
+        return rows, self.inflow.copy(), self.circulation.copy()
+
+    def periodic_map(self, records: list[tuple[list[int], np.ndarray, np.ndarray]]) -> tuple[np.ndarray, np.ndarray]:
+        """Inflow and circulation by azimuth (n, n_stations): mean of all blades' passages of a revolution."""
+        shape = (self.n, self.inflow.shape[1])
+        inflow, circulation = np.zeros(shape), np.zeros(shape)
+        for rows, lam, gamma in records:
+            inflow[rows] += lam
+            circulation[rows] += gamma
+        return inflow / self.model.n_blades, circulation / self.model.n_blades
+
+    def position(self) -> np.ndarray:
+        """Tip vortices (n_blades, n_ages, 3) [m], hub axes."""
+        return self.wake.position()
+
+    @property
+    def segment_evaluations(self) -> int:
+        """Counted evaluations of the segment law."""
+        return int(self.wake.segment_evaluations)

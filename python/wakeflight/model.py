@@ -1,0 +1,115 @@
+"""The compiled aircraft of one condition, and the few numbers of it that the verbs need."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from . import _core
+from .aircraft import Aircraft
+from .condition import FlightCondition
+from .inflow import DynamicInflow, InflowModel
+
+GRAVITY = 9.80665  # standard gravity [m/s2]
+
+
+@dataclass(frozen=True)
+class Model:
+    """Aircraft, condition and inflow model compiled into F(y_dot, y, u; t) = 0."""
+
+    aircraft: Aircraft
+    condition: FlightCondition
+    inflow: InflowModel
+    core: _core.Aircraft
+    data: dict[str, Any]
+    density: float
+    speed_of_sound: float
+
+    @classmethod
+    def build(cls, aircraft: Aircraft, condition: FlightCondition, inflow: InflowModel) -> Model:
+        """Compile; the tip loss is off and the inflow states are out of y with a free wake."""
+        density, speed_of_sound, _ = _core.standard_atmosphere(condition.altitude)
+        data = aircraft.core_data(condition)
+        d = aircraft.discretisation
+        core = _core.Aircraft(
+            json.dumps(data),
+            density,
+            speed_of_sound,
+            GRAVITY,
+            not isinstance(inflow, DynamicInflow),
+            d.n_elements,
+            d.n_modes,
+            d.n_gauss,
+            inflow.n_stations,
+            aircraft.reference_pitch,
+        )
+        return cls(aircraft, condition, inflow, core, data, density, speed_of_sound)
+
+    @cached_property
+    def rotor(self) -> dict[str, Any]:
+        """Constants of the rotor (SI): omega, radius, stations, widths, modal tip deflections ..."""
+        return self.core.rotor()
+
+    @cached_property
+    def layout(self) -> dict[str, Any]:
+        """Where the parts of y start."""
+        return self.core.layout()
+
+    @property
+    def omega(self) -> float:
+        """Rotor speed [rad/s]."""
+        return self.rotor["omega"]
+
+    @property
+    def tip_speed(self) -> float:
+        """Tip speed [m/s]."""
+        return self.rotor["omega"] * self.rotor["radius"]
+
+    @property
+    def n_blades(self) -> int:
+        """Number of blades."""
+        return self.rotor["n_blades"]
+
+    @cached_property
+    def stations(self) -> np.ndarray:
+        """Stations of the air loads (n_stations,) [m]."""
+        return np.asarray(self.rotor["stations"])
+
+    @cached_property
+    def area_weights(self) -> np.ndarray:
+        """Shares of the disk area that the stations stand for (n_stations,), summing to one."""
+        area = self.stations * np.asarray(self.rotor["widths"])
+        return area / area.sum()
+
+    @property
+    def steps_per_revolution(self) -> int:
+        """Coupling steps in a revolution."""
+        return round(2 * np.pi / self.inflow.azimuth_step)
+
+    @cached_property
+    def wake_options(self) -> str:
+        """Options of the free wake as the core reads them (JSON)."""
+        return json.dumps(self.inflow.core_options(self.aircraft))
+
+    def disk_mean(self, inflow: np.ndarray) -> float:
+        """Area mean of an inflow map (..., n_stations)."""
+        return float(np.mean(inflow @ self.area_weights))
+
+    def modal(self, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Modal coordinates and rates of all blades, (n_blades, n_modes) each."""
+        pick = lambda spans: np.array([y[a:b] for a, b in spans])  # noqa: E731
+        return pick(self.layout["modal"]), pick(self.layout["modal_rate"])
+
+    def pitch_controls(self, stick: np.ndarray) -> np.ndarray:
+        """theta_1c, theta_1s, theta_0, theta_tr [rad] for sticks [m]."""
+        rigging = self.data["rigging"]
+        return np.asarray(rigging["offset"]) + np.asarray(rigging["matrix"]) @ stick
+
+    @property
+    def accessory_power(self) -> float:
+        """Power of accessories [W]."""
+        return self.data["accessory_power"]

@@ -1,0 +1,359 @@
+"""Trim: the verb that finds sticks, attitude, periodic blade motion and inflow of a steady flight condition."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from . import _core
+from .aircraft import Aircraft
+from .condition import FlightCondition, condition_for
+from .errors import NumericalFailure
+from .inflow import DynamicInflow, InflowModel, TimeMarchingWake, inflow_model
+from .model import Model
+from .progress import Progress, silent
+from .wake_trim import WakeInTrim, marching_map
+
+INCH = 0.0254
+LINEAR_TOLERANCE = 1e-4  # m/s2
+ANGULAR_TOLERANCE = 1e-4  # rad/s2
+HARMONIC_TOLERANCE = 1e-6  # rad, equivalent angle of a blade harmonic
+CONTROL_TOLERANCE = 1e-3  # rad, change of a pitch control between trims on a free wake
+MAX_OUTER = 15
+
+
+@dataclass(frozen=True)
+class Trim:
+    """A trimmed flight; angles in rad, SI, sticks in inches from the stop."""
+
+    model: Model
+    problem: _core.TrimProblem
+    x: np.ndarray
+    inflow_map: np.ndarray  # (n_azimuths, n_stations), total induced inflow, positive down
+    circulation: np.ndarray  # (n_azimuths, n_stations) [m2/s]
+    wake: WakeInTrim | None
+    seconds: float
+    history: list[dict[str, float]] = field(default_factory=list)
+    counters: dict[str, int] = field(default_factory=dict)
+
+    @property
+    def aircraft(self) -> Aircraft:
+        """The aircraft."""
+        return self.model.aircraft
+
+    @property
+    def condition(self) -> FlightCondition:
+        """The condition."""
+        return self.model.condition
+
+    @property
+    def inflow(self) -> InflowModel:
+        """The inflow model."""
+        return self.model.inflow
+
+    @property
+    def stick_si(self) -> np.ndarray:
+        """Lateral, longitudinal, collective, pedal [m from the stop]."""
+        return self.x[:4].copy()
+
+    @property
+    def stick(self) -> dict[str, float]:
+        """Sticks by name [inches from the stop]."""
+        names = ("lateral", "longitudinal", "collective", "pedal")
+        return dict(zip(names, (self.x[:4] / INCH).tolist(), strict=True))
+
+    @property
+    def roll(self) -> float:
+        """Bank, right side down positive [rad]."""
+        return float(self.x[4])
+
+    @property
+    def pitch(self) -> float:
+        """Pitch attitude, nose up positive [rad]."""
+        return float(self.x[5])
+
+    @property
+    def yaw(self) -> float:
+        """Heading against the track, nose right positive [rad]."""
+        return float(self.x[6])
+
+    @property
+    def pitch_controls(self) -> dict[str, float]:
+        """Blade pitch theta_1c, theta_1s, theta_0 and tail-rotor pitch theta_tr [rad]."""
+        return dict(zip(("theta_1c", "theta_1s", "theta_0", "theta_tr"), self._controls(), strict=True))
+
+    def _controls(self) -> list[float]:
+        return self.model.pitch_controls(self.x[:4]).tolist()
+
+    @property
+    def theta_1c(self) -> float:
+        """Lateral cyclic [rad]."""
+        return self._controls()[0]
+
+    @property
+    def theta_1s(self) -> float:
+        """Longitudinal cyclic [rad]."""
+        return self._controls()[1]
+
+    @property
+    def theta_0(self) -> float:
+        """Collective pitch at the root [rad]."""
+        return self._controls()[2]
+
+    @property
+    def theta_tr(self) -> float:
+        """Tail-rotor pitch without bias [rad]."""
+        return self._controls()[3]
+
+    @property
+    def residuals(self) -> dict[str, float]:
+        """Largest residual of each kind: linear [m/s2], angular [rad/s2], blade harmonics [rad], inflow [-]."""
+        return residual_norms(self.model, self.problem, self.x)
+
+    @property
+    def stabilator_incidence(self) -> float:
+        """Incidence of the stabilator, trailing edge down positive [rad]."""
+        return self.model.core.trim_stabilator(self.problem, self.x)
+
+    def state(self, t: float = 0.0) -> np.ndarray:
+        """State y of the trimmed revolution at time `t` [s]."""
+        return self.model.core.trim_state(self.problem, self.x, t)[0]
+
+    def inputs(self, t: float = 0.0) -> _core.Inputs:
+        """Sticks and inflow that hold the trim, for the blades' azimuths at `t` [s]."""
+        return trim_inputs(self, t)
+
+    def mean_outputs(self) -> dict[str, Any]:
+        """Loads, power and coefficients averaged over a revolution."""
+        from .trim_results import mean_outputs
+
+        return mean_outputs(self)
+
+    def to_dataset(self):
+        """The trim as an xarray Dataset."""
+        from .trim_results import to_dataset
+
+        return to_dataset(self)
+
+    def table(self) -> str:
+        """The trim as a table to print."""
+        from .trim_results import table
+
+        return table(self)
+
+
+def trim(
+    aircraft: Aircraft,
+    condition: FlightCondition | None = None,
+    inflow: str | InflowModel = "relaxation",
+    progress: Progress | None = None,
+) -> Trim:
+    """Trim `aircraft` in `condition` (default: the aircraft's own) with an inflow model.
+
+    Raises `InputError` for bad input and `NumericalFailure`, naming the equation that is not met, where no trim is found.
+    """
+    progress = progress or silent()
+    start = time.perf_counter()
+    condition = condition if isinstance(condition, FlightCondition) and condition.complete else condition_for(
+        aircraft, condition
+    )
+    chosen = inflow_model(inflow)
+    chosen.check(aircraft)
+    progress.phase("trim", total=None)
+
+    # dynamic inflow first: the result itself, or the start of the free wake
+    simple = Model.build(aircraft, condition, chosen if isinstance(chosen, DynamicInflow) else DynamicInflow())
+    problem = trim_problem(simple, None)
+    x = solve(simple, problem, first_guess(simple, problem))
+    progress.advance(1, "dynamic inflow")
+    if isinstance(chosen, DynamicInflow):
+        inflow_map, circulation = dynamic_map(simple, problem, x)
+        return Trim(simple, problem, x, inflow_map, circulation, None, time.perf_counter() - start)
+
+    model = Model.build(aircraft, condition, chosen)
+    inflow_map, _ = dynamic_map(simple, problem, x, model.steps_per_revolution)
+    x = np.delete(x, slice(7, 10))
+    wake = WakeInTrim(model, inflow_map)
+    history = []
+    for outer in range(MAX_OUTER):
+        problem = trim_problem(model, inflow_map)
+        before = model.pitch_controls(x[:4])
+        x = solve(model, problem, x)
+        change = float(np.max(np.abs(model.pitch_controls(x[:4]) - before)))
+        if outer > 0 and change < CONTROL_TOLERANCE and wake.converged:
+            break
+        inflow_map = wake.converge(problem, x)
+        history.append({**wake.last, "control_change": change})
+        progress.advance(1, f"wake {outer + 1}: inflow change {wake.last['inflow_change']:.1e}, controls {change:.1e} rad")
+    else:
+        raise NumericalFailure(
+            f"trim on the free wake did not settle in {MAX_OUTER} passes: controls still move {change:.2e} rad "
+            f"(allowed {CONTROL_TOLERANCE:g}), inflow {wake.last['inflow_change']:.2e} (allowed {chosen.loop_tolerance:g})"
+        )
+    circulation = wake.circulation
+    if isinstance(chosen, TimeMarchingWake) and chosen.retrim:
+        problem, x, inflow_map, circulation = retrim_marching(model, problem, x, wake, progress)
+    return Trim(
+        model, problem, x, inflow_map, circulation, wake, time.perf_counter() - start, history, wake.counters
+    )
+
+
+def trim_problem(model: Model, inflow_map: np.ndarray | None) -> _core.TrimProblem:
+    """The trim equations of the model's condition, on a held inflow map or with dynamic inflow."""
+    c, d = model.condition, model.aircraft.discretisation
+    kind, angle = c.convention
+    n_harmonics = d.n_harmonics
+    n_azimuths = model.steps_per_revolution if inflow_map is None else inflow_map.shape[0]
+    mean = 0.0
+    if inflow_map is not None:
+        mean = model.disk_mean(inflow_map)
+    # at least four azimuths per highest harmonic
+    fine = n_azimuths * int(np.ceil(4 * n_harmonics / n_azimuths))
+    if inflow_map is not None and fine > n_azimuths:
+        inflow_map = resample(inflow_map, fine)
+    return _core.TrimProblem(
+        c.speed, c.flight_path, c.turn_rate, kind, angle, n_harmonics, fine, inflow_map, mean
+    )
+
+
+def resample(inflow_map: np.ndarray, n: int) -> np.ndarray:
+    """Trigonometric interpolation of a periodic map (n_azimuths, ...) to `n` azimuths."""
+    from scipy.signal import resample as fourier_resample
+
+    return np.ascontiguousarray(fourier_resample(inflow_map, n, axis=0))
+
+
+def first_guess(model: Model, problem: _core.TrimProblem) -> np.ndarray:
+    """Sticks at mid travel, level attitude, momentum inflow, three degrees of coning and of lag."""
+    modes, inflow, tail = model.core.trim_layout(problem)
+    x = np.zeros(modes[-1])
+    travel = np.asarray(model.aircraft.stick_travel)
+    x[:4] = 0.5 * travel
+    x[5] = np.radians(2.0)
+    kind, angle = model.condition.convention
+    if kind == "sideslip":
+        x[6] = -angle
+    area = np.pi * model.rotor["radius"] ** 2
+    ct = model.condition.gross_mass * 9.80665 / (model.density * area * model.tip_speed**2)
+    mu = model.condition.speed / model.tip_speed
+    lambda_0 = np.sqrt(ct / 2)
+    for _ in range(50):
+        lambda_0 = 0.5 * (lambda_0 + ct / (2 * np.hypot(mu, lambda_0)))
+    x[inflow] = lambda_0
+    if tail < modes[0]:
+        x[tail] = 0.02
+    x[modes[model.rotor["flap_mode"]]] = np.radians(3.0) / model.rotor["flap_per_coordinate"]
+    lead = np.asarray(model.rotor["root_lead_slope"])
+    lag_mode = int(np.argmin(model.rotor["frequencies"]))
+    if abs(lead[lag_mode]) > 0:
+        x[modes[lag_mode]] = -np.radians(3.0) / lead[lag_mode]
+    return x
+
+
+def solve(model: Model, problem: _core.TrimProblem, x0: np.ndarray) -> np.ndarray:
+    """Solve the trim equations with MINPACK's hybrid method and the exact Jacobian."""
+    from scipy.optimize import root
+
+    core = model.core
+    result = root(
+        lambda x: core.trim_residual(problem, x),
+        x0,
+        jac=lambda x: core.trim_jacobian(problem, x),
+        method="hybr",
+        options={"xtol": 1e-11, "maxfev": 400},
+    )
+    x = result.x
+    if not np.all(np.isfinite(x)):
+        raise NumericalFailure("trim failed: the iteration left the finite numbers")
+    norms = residual_norms(model, problem, x)
+    if (
+        norms["linear"] > LINEAR_TOLERANCE
+        or norms["angular"] > ANGULAR_TOLERANCE
+        or norms["harmonics"] > HARMONIC_TOLERANCE
+        or norms["other"] > 1e-6
+    ):
+        raise NumericalFailure(failure_text(model, problem, x))
+    return x
+
+
+def residual_norms(model: Model, problem: _core.TrimProblem, x: np.ndarray) -> dict[str, float]:
+    """Largest residuals by kind."""
+    f = np.abs(model.core.trim_residual(problem, x))
+    modes, _, _ = model.core.trim_layout(problem)
+    return {
+        "linear": float(f[:3].max()),
+        "angular": float(f[3:6].max()),
+        "other": float(f[6 : modes[0]].max()),
+        "harmonics": float(f[modes[0] :].max()),
+    }
+
+
+def failure_text(model: Model, problem: _core.TrimProblem, x: np.ndarray) -> str:
+    """Which equation is not met, and where the iteration stopped."""
+    f = model.core.trim_residual(problem, x)
+    names = model.core.trim_equations(problem)
+    modes, _, _ = model.core.trim_layout(problem)
+    tolerance = np.full(f.size, HARMONIC_TOLERANCE)
+    tolerance[:6] = LINEAR_TOLERANCE
+    worst = int(np.nanargmax(np.abs(f) / tolerance))
+    unit = "m/s2" if worst < 3 else "rad/s2" if worst < 6 else "rad" if worst >= modes[0] else "-"
+    sticks = ", ".join(f"{v / INCH:.2f}" for v in x[:4])
+    return (
+        f"no trim found: equation {names[worst]} is not met (residual {f[worst]:.3g} {unit}); stopped at sticks "
+        f"lateral, longitudinal, collective, pedal = {sticks} in, roll {np.degrees(x[4]):.1f} deg, "
+        f"pitch {np.degrees(x[5]):.1f} deg, heading against track {np.degrees(x[6]):.1f} deg"
+    )
+
+
+def dynamic_map(
+    model: Model, problem: _core.TrimProblem, x: np.ndarray, n_azimuths: int | None = None
+) -> tuple[np.ndarray, np.ndarray]:
+    """Inflow and circulation maps (n_azimuths, n_stations) of a trim with dynamic inflow."""
+    n = n_azimuths or model.steps_per_revolution
+    _, i, _ = model.core.trim_layout(problem)
+    mean, sine, cosine = x[i : i + 3]
+    psi = 2 * np.pi * np.arange(n) / n
+    r = model.stations / model.rotor["radius"]
+    inflow_map = mean + np.outer(cosine * np.cos(psi) + sine * np.sin(psi), r)
+    q, q_dot = model.core.trim_motion(problem, x, n)
+    y, _ = model.core.trim_state(problem, x, 0.0)
+    hub_velocity, hub_rates = model.core.hub(y)
+    circulation = np.array(
+        [
+            model.core.section_circulation(hub_velocity, hub_rates, x[:4], psi[k], q[k], q_dot[k], inflow_map[k])[0]
+            for k in range(n)
+        ]
+    )
+    return inflow_map, circulation
+
+
+def trim_inputs(start: Trim, t: float) -> _core.Inputs:
+    """Inputs that hold the trim at time `t`: the map at each blade's azimuth, or the inflow states."""
+    model = start.model
+    if isinstance(model.inflow, DynamicInflow):
+        return _core.Inputs(start.x[:4], np.zeros(4), 0.0, None, 0.0, start.stabilator_incidence)
+    n = start.inflow_map.shape[0]
+    first = round(model.omega * t / (2 * np.pi) * n)
+    rows = [(first + b * n // model.n_blades) % n for b in range(model.n_blades)]
+    mean = model.disk_mean(start.inflow_map)
+    return _core.Inputs(start.x[:4], np.zeros(4), 0.0, start.inflow_map[rows], mean, start.stabilator_incidence)
+
+
+def retrim_marching(
+    model: Model, problem: _core.TrimProblem, x: np.ndarray, wake: WakeInTrim, progress: Progress
+) -> tuple[_core.TrimProblem, np.ndarray, np.ndarray, np.ndarray]:
+    """Trim on the time-marching wake: march a revolution on frozen motion, re-trim on its inflow, until controls rest."""
+    march = wake.marching()
+    for revolution in range(60):
+        inflow_map, circulation = marching_map(march, problem, x)
+        before = model.pitch_controls(x[:4])
+        problem = trim_problem(model, inflow_map)
+        x = solve(model, problem, x)
+        change = float(np.max(np.abs(model.pitch_controls(x[:4]) - before)))
+        progress.advance(1, f"marching revolution {revolution + 1}: controls {change:.1e} rad")
+        if revolution > 2 and change < 0.1 * CONTROL_TOLERANCE:
+            return problem, x, inflow_map, circulation
+    raise NumericalFailure(f"trim on the time-marching wake did not settle: controls still move {change:.2e} rad")
