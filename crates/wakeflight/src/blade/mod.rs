@@ -1,10 +1,16 @@
 //! One blade: properties, beam finite elements, modes, kinematics, loads.
 pub mod aerodynamics;
+pub mod assembly;
 pub mod beam;
+pub mod error;
+pub mod hermite;
+pub mod inertia;
+pub mod jet;
 pub mod kinematics;
 pub mod loads;
 pub mod model;
 pub mod modes;
+pub mod quadrature;
 pub mod section;
 pub mod strain;
 
