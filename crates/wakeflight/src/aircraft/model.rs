@@ -7,7 +7,7 @@ use crate::airframe::mass::MassError;
 use crate::blade::aerodynamics::Air;
 use crate::blade::kinematics::PitchMotion;
 use crate::blade::model::{Blade, Discretisation};
-use crate::blade::modes::BladeError;
+use crate::blade::error::BladeError;
 use crate::inflow::pitt_peters::PittPeters;
 use crate::numerics::scalar::Real;
 use crate::rotor::hub::Rotor;

@@ -1,4 +1,5 @@
 //! The airframe: fuselage, tail surfaces, tail rotor, interference, mass.
+pub mod assembly;
 pub mod fuselage;
 pub mod interference;
 pub mod mass;

@@ -3,7 +3,9 @@
 use super::MAX_MODES;
 use super::aerodynamics::StationGeometry;
 use super::kinematics::StationShapes;
-use super::modes::{BladeError, BladeModes};
+use super::error::BladeError;
+use super::modes::BladeModes;
+use super::quadrature::gauss_points;
 use super::section::BladeProperties;
 use super::strain::Stiffness;
 
@@ -92,10 +94,10 @@ impl Blade {
         d: &Discretisation,
     ) -> Result<Self, BladeError> {
         if d.n_modes > MAX_MODES {
-            return Err(BladeError::Invalid {
-                field: "n_modes".into(),
-                value: d.n_modes.to_string(),
-                allowed: format!("1 to {MAX_MODES}"),
+            return Err(BladeError::Value {
+                field: "n_modes",
+                value: d.n_modes as f64,
+                allowed: "1 to 12 modes",
             });
         }
         let modes = BladeModes::new(properties, omega, d.reference_pitch, d.n_elements, d.n_modes)?;
@@ -112,9 +114,7 @@ impl Blade {
             }
             root_twist[i] = at_root.phi[i];
         }
-        let flap_mode = (0..d.n_modes)
-            .find(|&i| modes.energy_share[i][0] > 0.5)
-            .unwrap_or(0);
+        let flap_mode = (0..d.n_modes).find(|&i| modes.shares[i].flap > 0.5).unwrap_or(0);
         Ok(Self {
             n_modes: d.n_modes,
             flap_mode,
@@ -186,7 +186,7 @@ impl<'a> Shaper<'a> {
     /// Adds the foreshortening of a..b, which lies within one property segment and one element.
     fn accumulate(&self, shapes: &mut StationShapes, a: f64, b: f64) {
         let area_radius2 = self.area_radius_squared(0.5 * (a + b));
-        for (x, weight) in gauss_legendre(4, a, b) {
+        for (x, weight) in gauss_points(4, a, b) {
             let s = self.modes.at(x);
             let twist_slope = slope(&self.properties.twist, x);
             for i in 0..self.n_modes {
@@ -234,31 +234,6 @@ fn slope(table: &crate::numerics::tables::Table, x: f64) -> f64 {
     (table.y[i + 1] - table.y[i]) / (table.x[i + 1] - table.x[i])
 }
 
-/// Gauss-Legendre points and weights on a..b (Newton on the Legendre polynomial).
-pub(crate) fn gauss_legendre(n: usize, a: f64, b: f64) -> Vec<(f64, f64)> {
-    (0..n)
-        .map(|i| {
-            let mut z = (std::f64::consts::PI * (i as f64 + 0.75) / (n as f64 + 0.5)).cos();
-            let mut dp = 1.0;
-            for _ in 0..30 {
-                let (mut p0, mut p1) = (1.0, 0.0);
-                for j in 0..n {
-                    let p2 = p1;
-                    p1 = p0;
-                    p0 = ((2 * j + 1) as f64 * z * p1 - j as f64 * p2) / (j + 1) as f64;
-                }
-                dp = n as f64 * (z * p0 - p1) / (z * z - 1.0);
-                let step = p0 / dp;
-                z -= step;
-                if step.abs() < 1e-15 {
-                    break;
-                }
-            }
-            (0.5 * (a + b) + 0.5 * (b - a) * z, (b - a) / ((1.0 - z * z) * dp * dp))
-        })
-        .collect()
-}
-
 /// Quadrature points of the structure: per element the Gauss-Legendre points, with weights that integrate the
 /// piecewise constant properties times polynomials of degree n_gauss - 1 exactly, so that no step is smeared.
 fn structural_points(p: &BladeProperties, modes: &BladeModes, shaper: &Shaper, d: &Discretisation) -> Vec<StructuralPoint> {
@@ -270,7 +245,7 @@ fn structural_points(p: &BladeProperties, modes: &BladeModes, shaper: &Shaper, d
     for element in 0..d.n_elements {
         let a = p.root_station + length * element as f64;
         let b = a + length;
-        let abscissae: Vec<f64> = gauss_legendre(d.n_gauss, a, b).into_iter().map(|(x, _)| x).collect();
+        let abscissae: Vec<f64> = gauss_points(d.n_gauss, a, b).into_iter().map(|(x, _)| x).collect();
         // eight property integrals per point: mass, first moment, three inertias, three stiffnesses
         let mut sums = vec![[0.0; 8]; d.n_gauss];
         for &(start, end, segment) in pieces.iter().filter(|(x0, x1, _)| 0.5 * (x0 + x1) > a && 0.5 * (x0 + x1) < b) {
@@ -289,7 +264,7 @@ fn structural_points(p: &BladeProperties, modes: &BladeModes, shaper: &Shaper, d
                 s.ei_lag[segment],
                 s.gj[segment],
             ];
-            for (x, weight) in gauss_legendre(d.n_gauss.div_ceil(2) + 1, start, end) {
+            for (x, weight) in gauss_points(d.n_gauss.div_ceil(2) + 1, start, end) {
                 for (i, sum) in sums.iter_mut().enumerate() {
                     let basis = lagrange(&abscissae, i, x);
                     for (total, value) in sum.iter_mut().zip(values) {
