@@ -31,10 +31,10 @@ pub struct Vec3<S, F> {
     frame: PhantomData<F>,
 }
 
-impl<S: Copy, F> Clone for Vec3<S, F> {
+impl<S: Clone, F> Clone for Vec3<S, F> {
     #[inline(always)]
     fn clone(&self) -> Self {
-        *self
+        Self { x: self.x.clone(), y: self.y.clone(), z: self.z.clone(), frame: PhantomData }
     }
 }
 impl<S: Copy, F> Copy for Vec3<S, F> {}
@@ -134,10 +134,10 @@ pub struct Rotation<S, To, From> {
     frames: PhantomData<(To, From)>,
 }
 
-impl<S: Copy, To, From> Clone for Rotation<S, To, From> {
+impl<S: Clone, To, From> Clone for Rotation<S, To, From> {
     #[inline(always)]
     fn clone(&self) -> Self {
-        *self
+        Self { rows: self.rows.clone(), frames: PhantomData }
     }
 }
 impl<S: Copy, To, From> Copy for Rotation<S, To, From> {}
