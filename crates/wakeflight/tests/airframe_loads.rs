@@ -307,3 +307,33 @@ fn tail_rotor_derivatives_equal_central_differences_and_are_finite_at_rest() {
         assert!(s.re.is_finite() && s.eps.iter().all(|e| e.is_finite()));
     }
 }
+
+/// A fuselage with the symmetric part of the tables: mirrored flow gives mirrored loads.
+#[test]
+fn a_symmetric_fuselage_in_mirrored_flow_has_mirrored_loads() {
+    let mut f = fuselage();
+    let symmetric = |g: &mut wakeflight::numerics::tables::Grid, sign: f64| {
+        for row in &mut g.values {
+            let n = row.len();
+            *row = (0..n).map(|j| 0.5 * (row[j] + sign * row[n - 1 - j])).collect();
+        }
+    };
+    for g in [&mut f.drag, &mut f.lift, &mut f.pitching] {
+        symmetric(g, 1.0);
+    }
+    for g in [&mut f.side, &mut f.rolling, &mut f.yawing] {
+        symmetric(g, -1.0);
+    }
+    let (a, b) = (f.loads(V::new(30.0, 7.0, -4.0), 1.2), f.loads(V::new(30.0, -7.0, -4.0), 1.2));
+    for (x, y) in [
+        (a.force.x, b.force.x),
+        (a.force.y, -b.force.y),
+        (a.force.z, b.force.z),
+        (a.moment.x, -b.moment.x),
+        (a.moment.y, b.moment.y),
+        (a.moment.z, -b.moment.z),
+        (a.beta, -b.beta),
+    ] {
+        assert!((x - y).abs() < 1e-9);
+    }
+}
