@@ -1,5 +1,7 @@
 //! Stabilator and fin.
 
+use crate::numerics::frames::{Body, Vec3};
+use crate::numerics::scalar::Real;
 use crate::numerics::tables::Table;
 use serde::Deserialize;
 
@@ -44,4 +46,51 @@ pub struct StabilatorSchedule {
     pub limits: [f64; 2],
     /// Servo rate limit [rad/s].
     pub rate_limit: f64,
+}
+
+/// Square of a speed that does not matter [m2/s2].
+const SMALL_SQUARE: f64 = 1e-12;
+
+impl Surface {
+    /// Force of a horizontal surface at `incidence` [rad, trailing edge down +] for its local velocity through the air.
+    ///
+    /// Lift and drag in the local u-w plane: alpha = atan2(w, u) + incidence, q = rho (u^2 + w^2)/2; tables held beyond
+    /// their ends (reversed flow sees the coefficients of flow along the normal).
+    pub fn stabilator_force<S: Real>(&self, velocity: Vec3<S, Body>, incidence: S, density: f64) -> Vec3<S, Body> {
+        let (u, w) = (velocity.x, velocity.z);
+        let alpha = w.atan2(u) + incidence;
+        let (cl, cd) = (self.cl.at(alpha), self.cd.at(alpha));
+        // one factor of speed is in the direction: no division where the air is at rest
+        let pressure = (u * u + w * w + SMALL_SQUARE).sqrt() * (0.5 * density * self.area);
+        Vec3::new(pressure * (cl * w - cd * u), S::zero(), -pressure * (cl * u + cd * w))
+    }
+
+    /// Force of a vertical surface for its local velocity through the air.
+    ///
+    /// Along body y -q S cl(beta), drag against the velocity in the u-v plane; beta = atan2(v, u) + built-in incidence,
+    /// q = rho (u^2 + v^2)/2.
+    pub fn fin_force<S: Real>(&self, velocity: Vec3<S, Body>, density: f64) -> Vec3<S, Body> {
+        let (u, v) = (velocity.x, velocity.y);
+        let beta = v.atan2(u) + self.incidence;
+        let (cl, cd) = (self.cl.at(beta), self.cd.at(beta));
+        let speed = (u * u + v * v + SMALL_SQUARE).sqrt();
+        let pressure = speed * (0.5 * density * self.area);
+        Vec3::new(-pressure * cd * u, -pressure * (cl * speed + cd * v), S::zero())
+    }
+}
+
+impl StabilatorSchedule {
+    /// Commanded incidence [rad] within its limits; equivalent airspeed [kt], collective [per cent], pitch rate [rad/s].
+    ///
+    /// The lateral-acceleration term of the source is left out.
+    pub fn incidence<S: Real>(&self, v_eas_kt: S, collective_pct: S, q: S) -> S {
+        let b = self.coll_breaks_pct;
+        let below = |start: f64, width: f64| (-collective_pct + start).clamped(0.0, width);
+        let slope = (below(b[0], b[1]) + below(b[2], b[3])) * self.coll_slope + self.coll_const;
+        let low_speed = (v_eas_kt - self.v1_kt[0]).clamped(0.0, self.v1_kt[1]);
+        let high_speed = (v_eas_kt - self.v2[0]).clamped(0.0, self.v2[1]);
+        let rate = q * self.q_gain.to_degrees();
+        let degrees = -(low_speed * slope) + self.base_deg + high_speed * self.v2[2] + rate;
+        (degrees * 1f64.to_radians()).clamped(self.limits[0], self.limits[1])
+    }
 }
