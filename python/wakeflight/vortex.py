@@ -24,7 +24,7 @@ def induced_velocity(
 ) -> NDArray[np.float64]:
     """Velocity induced at points by filaments of straight segments (n, 3) [m/s].
 
-    Of each segment, with r1, r2 the vectors from its ends to the point, c = r1 x r2, F the factor of its core,
+    Of each segment, r1 and r2 the vectors from its ends to the point, c = r1 x r2, F the factor of its core,
 
         v = circulation / (4 pi) (|r1| + |r2|) / (|r1| |r2| (|r1| |r2| + r1 . r2)) F c
 
@@ -34,7 +34,7 @@ def induced_velocity(
     ----------
     points (n, 3) [m]: where the velocity is wanted.
     filaments: sequence of (m, 3) arrays [m], nodes in order, at least two each; lengths may differ.
-    circulation (n_segments,) [m2/s]: of each segment, filament after filament; positive along the nodes' order.
+    circulation (n_segments,) [m2/s]: of each segment, filament after filament; positive in the nodes' order.
     core_radius (n_segments,) [m]: radius of peak swirl of each segment's core.
     core: singular (which takes no notice of the core radius), scully, vatistas2, rankine, lamb_oseen or
         rosenhead_moore.

@@ -115,7 +115,7 @@ def test_verif_a_polygon_induces_the_exact_axial_velocity(row):
 
 
 def ring_velocity(r, z):
-    """Radial and axial velocity of the unit ring off its axis, by complete elliptic integrals of parameter m."""
+    """Radial and axial velocity of the unit ring off its axis, by complete elliptic integrals."""
     a = math.sqrt((r + 1) ** 2 + z**2)
     m = 4.0 * r / a**2
     p, q = z**2 + r**2 + 1.0, -2.0 * r
@@ -189,7 +189,7 @@ def test_verif_the_singular_polygon_grows_with_the_logarithm_of_its_nodes():
 def test_verif_core_profiles_have_their_thin_ring_constants():
     # C = 1/2 - A, A = lim (2 pi / circulation)^2 int r v^2 dr - ln(X / a), by quadrature of the swirl in ln r
     constants = table("K06_thin_ring_speed.toml")["constants"]
-    core_radius, nodes = 0.1, [(0, 0, -1e7), (0, 0, 1e7)]
+    core_radius, nodes = 0.1, [(0, 0, -1e10), (0, 0, 1e10)]
     of_core = {
         "scully": (constants["vatistas_n1"], core_radius),
         "vatistas2": (constants["vatistas_n2"], core_radius),
@@ -207,7 +207,7 @@ def test_verif_core_profiles_have_their_thin_ring_constants():
         v = wf.induced_velocity(points, [nodes], [1.0], [core_radius], core=core)[:, 1]
         energy = np.sum(np.tile(half * weight, 96) * (2.0 * np.pi * r * v) ** 2)
         limit = energy - math.log(core_radius * math.exp(12.0) / a)
-        assert 0.5 - limit == pytest.approx(expected, abs=1e-6), core
+        assert 0.5 - limit == pytest.approx(expected, abs=5e-7), core
 
 
 def test_filaments_of_different_lengths_add_up():
