@@ -46,6 +46,8 @@ pub struct StabilatorSchedule {
     pub limits: [f64; 2],
     /// Servo rate limit [rad/s].
     pub rate_limit: f64,
+    /// Stick travel that is 100 per cent of collective [m].
+    pub collective_travel: f64,
 }
 
 /// Square of a speed that does not matter [m2/s2].

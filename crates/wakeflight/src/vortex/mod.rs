@@ -1,3 +1,13 @@
 //! Straight vortex segments: core models and sums over many.
 pub mod core;
+pub mod curvature;
 pub mod induced_velocity;
+pub mod threads;
+
+mod kernel;
+mod models;
+mod roots;
+mod strands;
+
+#[cfg(test)]
+mod tests;

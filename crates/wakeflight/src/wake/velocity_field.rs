@@ -3,8 +3,9 @@
 use super::filament::Filaments;
 use super::geometry::{BladeGrid, blade_point};
 use super::options::{BladeState, CoreDistance, HubMotion, WakeOptions};
-use crate::vortex::core::{Core, curvature_velocity};
-use crate::vortex::induced_velocity::{Segments, add_induced_velocity_with};
+use crate::vortex::core::Core;
+use crate::vortex::curvature::curvature_velocity;
+use crate::vortex::induced_velocity::{Segments, add_segments_velocity};
 
 /// Where induced velocity comes from.
 pub trait InducedVelocity: Clone + Send + Sync {
@@ -82,7 +83,7 @@ pub(crate) fn add_segment_velocity(
     core_distance: CoreDistance,
     velocity: &mut [[f64; 3]],
 ) {
-    add_induced_velocity_with(points, segments, Core::Vatistas2, core_distance, velocity);
+    add_segments_velocity(points, segments, Core::Vatistas2, core_distance, velocity);
 }
 
 /// The rotor and its wake at one instant.

@@ -152,6 +152,7 @@ pub fn schedule() -> StabilatorSchedule {
         q_gain: 0.16,
         limits: [-0.13962634, 0.68067841],
         rate_limit: 7f64.to_radians(),
+        collective_travel: 0.254,
     }
 }
 

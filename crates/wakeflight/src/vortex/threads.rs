@@ -1,0 +1,83 @@
+//! Number of threads of the sums, and the pool they run in.
+
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use std::num::NonZero;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// Environment variable read where `set_threads` was not called.
+pub const THREADS_VARIABLE: &str = "WAKEFLIGHT_THREADS";
+
+/// Most threads one may ask for.
+pub const MOST_THREADS: usize = 1024;
+
+/// A number of threads that cannot be used.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{name} = {value}: allowed are whole numbers from 1 to {MOST_THREADS}")]
+pub struct ThreadsError {
+    /// Where the number comes from.
+    pub name: &'static str,
+    /// What was given.
+    pub value: String,
+}
+
+/// A pool and the process that owns its threads; after a fork the child builds its own.
+struct Owned {
+    process: u32,
+    pool: Arc<ThreadPool>,
+}
+
+static CHOSEN: Mutex<Option<usize>> = Mutex::new(None);
+static POOL: Mutex<Option<Owned>> = Mutex::new(None);
+
+fn allowed(name: &'static str, value: &str) -> Result<usize, ThreadsError> {
+    match value.trim().parse::<usize>() {
+        Ok(n) if (1..=MOST_THREADS).contains(&n) => Ok(n),
+        _ => Err(ThreadsError { name, value: value.to_owned() }),
+    }
+}
+
+/// Sets the number of threads of all later sums; results do not depend on it.
+///
+/// # Errors
+/// For zero or more than [`MOST_THREADS`].
+pub fn set_threads(n: usize) -> Result<(), ThreadsError> {
+    let n = allowed("threads", &n.to_string())?;
+    *CHOSEN.lock().unwrap_or_else(PoisonError::into_inner) = Some(n);
+    Ok(())
+}
+
+/// Number of threads: as set, else of `WAKEFLIGHT_THREADS`, else one per processor.
+///
+/// # Errors
+/// Where the environment variable holds no number that is allowed.
+pub fn threads() -> Result<usize, ThreadsError> {
+    if let Some(n) = *CHOSEN.lock().unwrap_or_else(PoisonError::into_inner) {
+        return Ok(n);
+    }
+    match std::env::var_os(THREADS_VARIABLE) {
+        Some(value) => allowed(THREADS_VARIABLE, &value.to_string_lossy()),
+        None => Ok(std::thread::available_parallelism().map_or(1, NonZero::get).min(MOST_THREADS)),
+    }
+}
+
+/// Pool for more than one thread, built at first use; none where one thread is asked for or no pool can be had.
+pub(super) fn pool() -> Option<Arc<ThreadPool>> {
+    let n = threads().unwrap_or(1);
+    if n == 1 {
+        return None;
+    }
+    let process = std::process::id();
+    let mut held = POOL.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(owned) = held.as_ref() {
+        if owned.process == process && owned.pool.current_num_threads() == n {
+            return Some(Arc::clone(&owned.pool));
+        }
+    }
+    let pool = Arc::new(ThreadPoolBuilder::new().num_threads(n).thread_name(|i| format!("wakeflight-{i}")).build().ok()?);
+    let previous = held.replace(Owned { process, pool: Arc::clone(&pool) });
+    if let Some(owned) = previous.filter(|owned| owned.process != process) {
+        // the threads of a parent process do not exist here: nothing to wait for
+        std::mem::forget(owned);
+    }
+    Some(pool)
+}
