@@ -3,6 +3,7 @@ use pyo3::prelude::*;
 
 mod aircraft;
 mod atmosphere;
+mod blade;
 mod vortex;
 
 /// The compiled core of wakeflight.
@@ -13,6 +14,7 @@ fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_class::<aircraft::PyAircraft>()?;
     m.add_class::<aircraft::PyInputs>()?;
     m.add_class::<aircraft::PyTrimProblem>()?;
+    m.add_class::<blade::BladeModes>()?;
     vortex::register(m)?;
     Ok(())
 }

@@ -78,7 +78,7 @@ pub struct BladeModes {
 /// Eigenvalues below this fraction of the largest one belong to motion without mass.
 const MASSLESS: f64 = 1e-12;
 /// Negative squares of frequencies below this fraction of the shift are rounding.
-const ROUNDING: f64 = 1e-8;
+const ROUNDING: f64 = 1e-6;
 
 impl BladeModes {
     /// First `n_modes` modes of a blade of `n_elements` equal elements at rotor speed `omega` [rad/s] and root pitch

@@ -1,5 +1,7 @@
 //! Core models of a vortex filament and the reference law of one straight segment.
 
+use serde::{Deserialize, Serialize};
+
 /// Swirl profile of the core; `core_radius` is the radius of peak swirl.
 ///
 /// With F the factor on the swirl of the line vortex, v = F circulation / (2 pi r), and q = r / core_radius:
@@ -23,7 +25,8 @@ pub enum Core {
 }
 
 /// Distance that the core factor of a segment is taken at.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum CoreDistance {
     /// To the infinite line through the segment, as is usual in free-wake codes.
     ///
