@@ -219,7 +219,7 @@ mod avx512 {
         type Output = ();
         #[inline(always)]
         fn with_simd<S: Simd>(self, _: S) {
-            self.1.run::<V4, Refined, 2>(self.0, Refined);
+            self.1.run(self.0, Refined);
         }
     }
 

@@ -1,6 +1,6 @@
 //! The sum over segments, several points at a time.
 
-use super::lanes::{Block, Lanes};
+use super::lanes::Lanes;
 use super::models::{Model, Seen};
 use super::roots::{Exact, Roots};
 use super::strands::{Piece, Strands};
@@ -19,14 +19,14 @@ pub(super) struct Sum<'a, M, const TO_SEGMENT: bool> {
     model: PhantomData<M>,
 }
 
-/// Position or velocity of a block of points.
-type Vectors<S, const B: usize> = [Block<S, B>; 3];
+/// Position or velocity of several points.
+type Vectors<S> = [<S as Simd>::f64s; 3];
 
 /// Points seen from one node: separation, its square and its length.
-struct FromNode<S: Simd, const B: usize> {
-    separation: Vectors<S, B>,
-    distance_sq: Block<S, B>,
-    distance: Block<S, B>,
+struct FromNode<S: Simd> {
+    separation: Vectors<S>,
+    distance_sq: S::f64s,
+    distance: S::f64s,
 }
 
 impl<'a, M: Model, const TO_SEGMENT: bool> Sum<'a, M, TO_SEGMENT> {
@@ -35,15 +35,19 @@ impl<'a, M: Model, const TO_SEGMENT: bool> Sum<'a, M, TO_SEGMENT> {
         Self { points, strands, velocity, model: PhantomData }
     }
 
-    /// Runs on blocks of `B` vectors, then of one; a point's result does not depend on its block.
+    /// Runs on lanes of `S` with roots by `R`; a point's result does not depend on its neighbours.
     #[inline(always)]
-    pub fn run<S: Simd, R: Roots<S>, const B: usize>(self, simd: S, roots: R) {
-        let wide = Lanes::<S, R, B>::COUNT;
-        let n_wide = self.points.len() / wide * wide;
-        let (points, points_left) = self.points.split_at(n_wide);
-        let (velocity, velocity_left) = self.velocity.split_at_mut(n_wide.min(self.velocity.len()));
-        on_blocks::<S, R, M, B, TO_SEGMENT>(Lanes::new(simd, roots), points, self.strands, velocity);
-        on_blocks::<S, R, M, 1, TO_SEGMENT>(Lanes::new(simd, roots), points_left, self.strands, velocity_left);
+    pub fn run<S: Simd, R: Roots<S>>(self, simd: S, roots: R) {
+        let (on, count) = (Lanes::new(simd, roots), Lanes::<S, R>::COUNT);
+        for (points, velocity) in self.points.chunks(count).zip(self.velocity.chunks_mut(count)) {
+            let sum = over_sources::<S, R, M, TO_SEGMENT>(on, gathered(on, points), self.strands);
+            for (axis, component) in sum.iter().enumerate() {
+                let component: &[f64] = cast_slice(std::slice::from_ref(component));
+                for (v, added) in velocity.iter_mut().zip(component) {
+                    v[axis] += added;
+                }
+            }
+        }
     }
 }
 
@@ -51,35 +55,16 @@ impl<M: Model, const TO_SEGMENT: bool> WithSimd for Sum<'_, M, TO_SEGMENT> {
     type Output = ();
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        self.run::<S, Exact, 1>(simd, Exact);
-    }
-}
-
-#[inline(always)]
-fn on_blocks<S: Simd, R: Roots<S>, M: Model, const B: usize, const TO_SEGMENT: bool>(
-    on: Lanes<S, R, B>,
-    points: &[[f64; 3]],
-    strands: &Strands,
-    velocity: &mut [[f64; 3]],
-) {
-    let count = Lanes::<S, R, B>::COUNT;
-    for (points, velocity) in points.chunks(count).zip(velocity.chunks_mut(count)) {
-        let sum = over_sources::<S, R, M, B, TO_SEGMENT>(on, gathered(on, points), strands);
-        for (axis, component) in sum.iter().enumerate() {
-            let component: &[f64] = cast_slice(component);
-            for (v, added) in velocity.iter_mut().zip(component) {
-                v[axis] += added;
-            }
-        }
+        self.run(simd, Exact);
     }
 }
 
 /// Coordinates across lanes; lanes past the end repeat the last point, so that all lanes do the same.
 #[inline(always)]
-fn gathered<S: Simd, R: Roots<S>, const B: usize>(on: Lanes<S, R, B>, points: &[[f64; 3]]) -> Vectors<S, B> {
+fn gathered<S: Simd, R: Roots<S>>(on: Lanes<S, R>, points: &[[f64; 3]]) -> Vectors<S> {
     let mut coordinates = [on.splat(0.0); 3];
-    for (axis, block) in coordinates.iter_mut().enumerate() {
-        let lanes: &mut [f64] = cast_slice_mut(block);
+    for (axis, component) in coordinates.iter_mut().enumerate() {
+        let lanes: &mut [f64] = cast_slice_mut(std::slice::from_mut(component));
         for (i, lane) in lanes.iter_mut().enumerate() {
             *lane = points[i.min(points.len() - 1)][axis];
         }
@@ -88,11 +73,11 @@ fn gathered<S: Simd, R: Roots<S>, const B: usize>(on: Lanes<S, R, B>, points: &[
 }
 
 #[inline(always)]
-fn over_sources<S: Simd, R: Roots<S>, M: Model, const B: usize, const TO_SEGMENT: bool>(
-    on: Lanes<S, R, B>,
-    points: Vectors<S, B>,
+fn over_sources<S: Simd, R: Roots<S>, M: Model, const TO_SEGMENT: bool>(
+    on: Lanes<S, R>,
+    points: Vectors<S>,
     strands: &Strands,
-) -> Vectors<S, B> {
+) -> Vectors<S> {
     let mut sum = [on.splat(0.0); 3];
     let mut rest = strands.pieces.as_slice();
     for strand in &strands.strands {
@@ -101,7 +86,7 @@ fn over_sources<S: Simd, R: Roots<S>, M: Model, const B: usize, const TO_SEGMENT
         let mut from_start = from_node(on, &points, &strand.start);
         for piece in pieces {
             let from_end = from_node(on, &points, &piece.end);
-            add_piece::<S, R, M, B, TO_SEGMENT>(on, &from_start, &from_end, piece, &mut sum);
+            add_piece::<S, R, M, TO_SEGMENT>(on, &from_start, &from_end, piece, &mut sum);
             from_start = from_end;
         }
     }
@@ -109,11 +94,11 @@ fn over_sources<S: Simd, R: Roots<S>, M: Model, const B: usize, const TO_SEGMENT
 }
 
 #[inline(always)]
-fn from_node<S: Simd, R: Roots<S>, const B: usize>(
-    on: Lanes<S, R, B>,
-    points: &Vectors<S, B>,
+fn from_node<S: Simd, R: Roots<S>>(
+    on: Lanes<S, R>,
+    points: &Vectors<S>,
     node: &[f64; 3],
-) -> FromNode<S, B> {
+) -> FromNode<S> {
     let separation = [0, 1, 2].map(|axis| on.sub(points[axis], on.splat(node[axis])));
     let distance_sq = dot(on, &separation, &separation);
     let distance = on.sqrt(on.max(distance_sq, on.splat(LEAST_SQUARE)));
@@ -121,31 +106,31 @@ fn from_node<S: Simd, R: Roots<S>, const B: usize>(
 }
 
 #[inline(always)]
-fn dot<S: Simd, R: Roots<S>, const B: usize>(
-    on: Lanes<S, R, B>,
-    a: &Vectors<S, B>,
-    b: &Vectors<S, B>,
-) -> Block<S, B> {
+fn dot<S: Simd, R: Roots<S>>(
+    on: Lanes<S, R>,
+    a: &Vectors<S>,
+    b: &Vectors<S>,
+) -> S::f64s {
     on.mul_add(a[0], b[0], on.mul_add(a[1], b[1], on.mul(a[2], b[2])))
 }
 
 #[inline(always)]
-fn cross<S: Simd, R: Roots<S>, const B: usize>(
-    on: Lanes<S, R, B>,
-    a: &Vectors<S, B>,
-    b: &Vectors<S, B>,
-) -> Vectors<S, B> {
+fn cross<S: Simd, R: Roots<S>>(
+    on: Lanes<S, R>,
+    a: &Vectors<S>,
+    b: &Vectors<S>,
+) -> Vectors<S> {
     [(1, 2), (2, 0), (0, 1)].map(|(i, j)| on.sub_mul(on.mul(a[i], b[j]), a[j], b[i]))
 }
 
 /// Adds circulation / (4 pi) (r1 + r2) / (r1 r2) s F / |c|^2 c, as in `segment_velocity`, under one reciprocal root.
 #[inline(always)]
-fn add_piece<S: Simd, R: Roots<S>, M: Model, const B: usize, const TO_SEGMENT: bool>(
-    on: Lanes<S, R, B>,
-    from_start: &FromNode<S, B>,
-    from_end: &FromNode<S, B>,
+fn add_piece<S: Simd, R: Roots<S>, M: Model, const TO_SEGMENT: bool>(
+    on: Lanes<S, R>,
+    from_start: &FromNode<S>,
+    from_end: &FromNode<S>,
     piece: &Piece,
-    sum: &mut Vectors<S, B>,
+    sum: &mut Vectors<S>,
 ) {
     let along = piece.along.map(|x| on.splat(x));
     let cross = cross(on, &along, &from_start.separation);

@@ -1,18 +1,18 @@
 //! Core models as denominators of the segment law, several points at a time.
 
 use super::core::LAMB_OSEEN_ALPHA;
-use super::lanes::{Block, Lanes};
+use super::lanes::Lanes;
 use super::roots::Roots;
 use pulp::Simd;
 
 /// What a core sees of a segment, for several points; r_c: core radius, L: |c| over the core distance.
-pub(super) struct Seen<S: Simd, const B: usize> {
+pub(super) struct Seen<S: Simd> {
     /// |c|^2, with r_c^2 length^2 added for a softened kernel.
-    pub cross_sq: Block<S, B>,
+    pub cross_sq: S::f64s,
     /// r_c^2 L^2; L is the segment's length for the distance to the line.
-    pub area: Block<S, B>,
+    pub area: S::f64s,
     /// Square of `area`.
-    pub area_sq: Block<S, B>,
+    pub area_sq: S::f64s,
 }
 
 /// A core model: |c|^2 / F, squared, F being the factor on the singular law.
@@ -20,7 +20,7 @@ pub(super) trait Model: Copy + Send + Sync {
     /// Whether the core radius softens the distance in the kernel itself.
     const SOFTENED: bool = false;
     /// (|c|^2 / F)^2 for every point.
-    fn denominator_sq<S: Simd, R: Roots<S>, const B: usize>(on: Lanes<S, R, B>, seen: Seen<S, B>) -> Block<S, B>;
+    fn denominator_sq<S: Simd, R: Roots<S>>(on: Lanes<S, R>, seen: Seen<S>) -> S::f64s;
 }
 
 /// F = 1.
@@ -44,14 +44,14 @@ pub(super) struct RosenheadMoore;
 
 impl Model for Singular {
     #[inline(always)]
-    fn denominator_sq<S: Simd, R: Roots<S>, const B: usize>(on: Lanes<S, R, B>, seen: Seen<S, B>) -> Block<S, B> {
+    fn denominator_sq<S: Simd, R: Roots<S>>(on: Lanes<S, R>, seen: Seen<S>) -> S::f64s {
         Rankine::denominator_sq(on, seen)
     }
 }
 
 impl Model for Scully {
     #[inline(always)]
-    fn denominator_sq<S: Simd, R: Roots<S>, const B: usize>(on: Lanes<S, R, B>, seen: Seen<S, B>) -> Block<S, B> {
+    fn denominator_sq<S: Simd, R: Roots<S>>(on: Lanes<S, R>, seen: Seen<S>) -> S::f64s {
         let sum = on.add(seen.cross_sq, seen.area);
         on.mul(sum, sum)
     }
@@ -59,14 +59,14 @@ impl Model for Scully {
 
 impl Model for Vatistas2 {
     #[inline(always)]
-    fn denominator_sq<S: Simd, R: Roots<S>, const B: usize>(on: Lanes<S, R, B>, seen: Seen<S, B>) -> Block<S, B> {
+    fn denominator_sq<S: Simd, R: Roots<S>>(on: Lanes<S, R>, seen: Seen<S>) -> S::f64s {
         on.mul_add(seen.cross_sq, seen.cross_sq, seen.area_sq)
     }
 }
 
 impl Model for Rankine {
     #[inline(always)]
-    fn denominator_sq<S: Simd, R: Roots<S>, const B: usize>(on: Lanes<S, R, B>, seen: Seen<S, B>) -> Block<S, B> {
+    fn denominator_sq<S: Simd, R: Roots<S>>(on: Lanes<S, R>, seen: Seen<S>) -> S::f64s {
         let largest = on.max(seen.cross_sq, seen.area);
         on.mul(largest, largest)
     }
@@ -74,7 +74,7 @@ impl Model for Rankine {
 
 impl Model for LambOseen {
     #[inline(always)]
-    fn denominator_sq<S: Simd, R: Roots<S>, const B: usize>(on: Lanes<S, R, B>, seen: Seen<S, B>) -> Block<S, B> {
+    fn denominator_sq<S: Simd, R: Roots<S>>(on: Lanes<S, R>, seen: Seen<S>) -> S::f64s {
         // no vector exponential: one point after the other
         let denominator = on.each(seen.cross_sq, seen.area, gaussian_denominator);
         on.mul(denominator, denominator)
@@ -96,7 +96,7 @@ fn gaussian_denominator(cross_sq: f64, area: f64) -> f64 {
 impl Model for RosenheadMoore {
     const SOFTENED: bool = true;
     #[inline(always)]
-    fn denominator_sq<S: Simd, R: Roots<S>, const B: usize>(on: Lanes<S, R, B>, seen: Seen<S, B>) -> Block<S, B> {
+    fn denominator_sq<S: Simd, R: Roots<S>>(on: Lanes<S, R>, seen: Seen<S>) -> S::f64s {
         on.mul(seen.cross_sq, seen.cross_sq)
     }
 }
