@@ -1,14 +1,15 @@
 //! The sum over segments, several points at a time.
 
+use super::lanes::Lanes;
 use super::models::{Model, Seen};
-use super::roots::Roots;
+use super::roots::{Exact, Roots};
 use super::strands::{Piece, Strands};
-use pulp::{Simd, WithSimd};
 use pulp::bytemuck::{cast_slice, cast_slice_mut};
+use pulp::{Simd, WithSimd};
 use std::marker::PhantomData;
 
-/// Keeps the reciprocal root finite where everything vanishes; reached below lengths of 1e-18 m only.
-const LEAST_DENOMINATOR: f64 = 1e-300;
+/// Keeps roots and reciprocals finite where everything vanishes; reached below lengths of 1e-18 m only.
+const LEAST_SQUARE: f64 = 1e-300;
 
 /// A sum over segments at some points, for one core model and distance.
 pub(super) struct Sum<'a, M, const TO_SEGMENT: bool> {
@@ -21,7 +22,7 @@ pub(super) struct Sum<'a, M, const TO_SEGMENT: bool> {
 /// Position or velocity of several points.
 type Vectors<S> = [<S as Simd>::f64s; 3];
 
-/// Points seen from one node: separation, its square and its (softened) length.
+/// Points seen from one node: separation, its square and its length.
 struct FromNode<S: Simd> {
     separation: Vectors<S>,
     distance_sq: S::f64s,
@@ -34,16 +35,16 @@ impl<'a, M: Model, const TO_SEGMENT: bool> Sum<'a, M, TO_SEGMENT> {
         Self { points, strands, velocity, model: PhantomData }
     }
 
-    /// Runs on lanes of `S`, with roots by `roots`.
+    /// Runs on lanes of `S` with roots by `R`; a point's result does not depend on its neighbours.
     #[inline(always)]
     pub fn run<S: Simd, R: Roots<S>>(self, simd: S, roots: R) {
-        let lanes = S::F64_LANES;
-        for (points, velocity) in self.points.chunks(lanes).zip(self.velocity.chunks_mut(lanes)) {
-            let sum = over_sources::<S, R, M, TO_SEGMENT>(simd, roots, gathered(simd, points), self.strands);
-            let components: &[f64] = cast_slice(&sum);
-            for (i, v) in velocity.iter_mut().enumerate() {
-                for (axis, component) in v.iter_mut().enumerate() {
-                    *component += components[axis * lanes + i];
+        let (on, count) = (Lanes::new(simd, roots), Lanes::<S, R>::COUNT);
+        for (points, velocity) in self.points.chunks(count).zip(self.velocity.chunks_mut(count)) {
+            let sum = over_sources::<S, R, M, TO_SEGMENT>(on, gathered(on, points), self.strands);
+            for (axis, component) in sum.iter().enumerate() {
+                let component: &[f64] = cast_slice(std::slice::from_ref(component));
+                for (v, added) in velocity.iter_mut().zip(component) {
+                    v[axis] += added;
                 }
             }
         }
@@ -54,16 +55,16 @@ impl<M: Model, const TO_SEGMENT: bool> WithSimd for Sum<'_, M, TO_SEGMENT> {
     type Output = ();
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        self.run(simd, super::roots::Exact);
+        self.run(simd, Exact);
     }
 }
 
-/// Coordinates across lanes; lanes past the end repeat the last point, so that they cost nothing special.
+/// Coordinates across lanes; lanes past the end repeat the last point, so that all lanes do the same.
 #[inline(always)]
-fn gathered<S: Simd>(simd: S, points: &[[f64; 3]]) -> Vectors<S> {
-    let mut coordinates = [simd.splat_f64s(0.0); 3];
-    for (axis, lanes) in coordinates.iter_mut().enumerate() {
-        let lanes: &mut [f64] = cast_slice_mut(std::slice::from_mut(lanes));
+fn gathered<S: Simd, R: Roots<S>>(on: Lanes<S, R>, points: &[[f64; 3]]) -> Vectors<S> {
+    let mut coordinates = [on.splat(0.0); 3];
+    for (axis, component) in coordinates.iter_mut().enumerate() {
+        let lanes: &mut [f64] = cast_slice_mut(std::slice::from_mut(component));
         for (i, lane) in lanes.iter_mut().enumerate() {
             *lane = points[i.min(points.len() - 1)][axis];
         }
@@ -73,20 +74,19 @@ fn gathered<S: Simd>(simd: S, points: &[[f64; 3]]) -> Vectors<S> {
 
 #[inline(always)]
 fn over_sources<S: Simd, R: Roots<S>, M: Model, const TO_SEGMENT: bool>(
-    simd: S,
-    roots: R,
+    on: Lanes<S, R>,
     points: Vectors<S>,
     strands: &Strands,
 ) -> Vectors<S> {
-    let mut sum = [simd.splat_f64s(0.0); 3];
+    let mut sum = [on.splat(0.0); 3];
     let mut rest = strands.pieces.as_slice();
     for strand in &strands.strands {
         let (pieces, others) = rest.split_at(strand.n_pieces);
         rest = others;
-        let mut from_start = from_node(simd, roots, &points, &strand.start);
+        let mut from_start = from_node(on, &points, &strand.start);
         for piece in pieces {
-            let from_end = from_node(simd, roots, &points, &piece.end);
-            add_piece::<S, R, M, TO_SEGMENT>(simd, roots, &from_start, &from_end, piece, &mut sum);
+            let from_end = from_node(on, &points, &piece.end);
+            add_piece::<S, R, M, TO_SEGMENT>(on, &from_start, &from_end, piece, &mut sum);
             from_start = from_end;
         }
     }
@@ -94,81 +94,81 @@ fn over_sources<S: Simd, R: Roots<S>, M: Model, const TO_SEGMENT: bool>(
 }
 
 #[inline(always)]
-fn from_node<S: Simd, R: Roots<S>>(simd: S, roots: R, points: &Vectors<S>, node: &[f64; 3]) -> FromNode<S> {
-    let [x, y, z] = [0, 1, 2].map(|axis| simd.sub_f64s(points[axis], simd.splat_f64s(node[axis])));
-    let distance_sq = dot(simd, &[x, y, z], &[x, y, z]);
-    let distance = roots.sqrt(simd, simd.max_f64s(distance_sq, simd.splat_f64s(LEAST_DENOMINATOR)));
-    FromNode { separation: [x, y, z], distance_sq, distance }
+fn from_node<S: Simd, R: Roots<S>>(
+    on: Lanes<S, R>,
+    points: &Vectors<S>,
+    node: &[f64; 3],
+) -> FromNode<S> {
+    let separation = [0, 1, 2].map(|axis| on.sub(points[axis], on.splat(node[axis])));
+    let distance_sq = dot(on, &separation, &separation);
+    let distance = on.sqrt(on.max(distance_sq, on.splat(LEAST_SQUARE)));
+    FromNode { separation, distance_sq, distance }
 }
 
 #[inline(always)]
-fn dot<S: Simd>(simd: S, a: &Vectors<S>, b: &Vectors<S>) -> S::f64s {
-    simd.mul_add_e_f64s(a[0], b[0], simd.mul_add_e_f64s(a[1], b[1], simd.mul_f64s(a[2], b[2])))
+fn dot<S: Simd, R: Roots<S>>(
+    on: Lanes<S, R>,
+    a: &Vectors<S>,
+    b: &Vectors<S>,
+) -> S::f64s {
+    on.mul_add(a[0], b[0], on.mul_add(a[1], b[1], on.mul(a[2], b[2])))
 }
 
-/// a1 b2 - a2 b1.
 #[inline(always)]
-fn minor<S: Simd>(simd: S, a1: S::f64s, b1: S::f64s, a2: S::f64s, b2: S::f64s) -> S::f64s {
-    simd.negate_mul_add_e_f64s(a2, b1, simd.mul_f64s(a1, b2))
+fn cross<S: Simd, R: Roots<S>>(
+    on: Lanes<S, R>,
+    a: &Vectors<S>,
+    b: &Vectors<S>,
+) -> Vectors<S> {
+    [(1, 2), (2, 0), (0, 1)].map(|(i, j)| on.sub_mul(on.mul(a[i], b[j]), a[j], b[i]))
 }
 
 /// Adds circulation / (4 pi) (r1 + r2) / (r1 r2) s F / |c|^2 c, as in `segment_velocity`, under one reciprocal root.
 #[inline(always)]
 fn add_piece<S: Simd, R: Roots<S>, M: Model, const TO_SEGMENT: bool>(
-    simd: S,
-    roots: R,
+    on: Lanes<S, R>,
     from_start: &FromNode<S>,
     from_end: &FromNode<S>,
     piece: &Piece,
     sum: &mut Vectors<S>,
 ) {
-    let splat = |x: f64| simd.splat_f64s(x);
-    let along = piece.along.map(splat);
-    let r = &from_start.separation;
-    let cross = [
-        minor(simd, along[1], r[1], along[2], r[2]),
-        minor(simd, along[2], r[2], along[0], r[0]),
-        minor(simd, along[0], r[0], along[1], r[1]),
-    ];
-    let mut cross_sq = dot(simd, &cross, &cross);
-    let mut d = dot(simd, &from_start.separation, &from_end.separation);
-    let bare_product = simd.mul_f64s(from_start.distance, from_end.distance);
+    let along = piece.along.map(|x| on.splat(x));
+    let cross = cross(on, &along, &from_start.separation);
+    let mut cross_sq = dot(on, &cross, &cross);
+    let mut d = dot(on, &from_start.separation, &from_end.separation);
+    let (mut r1, mut r2) = (from_start.distance, from_end.distance);
+    let mut product = on.mul(r1, r2);
+    let on_end = on.not_greater(product, on.splat(piece.end_guard));
 
-    let (area, area_sq) = if TO_SEGMENT && !M::SOFTENED {
-        // beyond an end the distance to it replaces h: L^2 = |c|^2 / r^2 instead of length^2
-        let nearest_sq = simd.min_f64s(from_start.distance_sq, from_end.distance_sq);
-        let beyond = simd.greater_than_f64s(d, nearest_sq);
-        let ratio_sq = simd.div_f64s(cross_sq, simd.max_f64s(nearest_sq, splat(LEAST_DENOMINATOR)));
-        let spread_sq = simd.select_f64s(beyond, ratio_sq, splat(piece.length_sq));
-        let area = simd.mul_f64s(splat(piece.core_sq), spread_sq);
-        (area, simd.mul_f64s(area, area))
-    } else {
-        (splat(piece.area), splat(piece.area_sq))
-    };
-    let (mut r1, mut r2, mut product) = (from_start.distance, from_end.distance, bare_product);
+    let (mut area, mut area_sq) = (on.splat(piece.area), on.splat(piece.area_sq));
     if M::SOFTENED {
-        let core_sq = splat(piece.core_sq);
-        let soft = |square| roots.sqrt(simd, simd.max_f64s(simd.add_f64s(square, core_sq), splat(LEAST_DENOMINATOR)));
+        let core_sq = on.splat(piece.core_sq);
+        let soft = |square| on.sqrt(on.max(on.add(square, core_sq), on.splat(LEAST_SQUARE)));
         (r1, r2) = (soft(from_start.distance_sq), soft(from_end.distance_sq));
-        product = simd.mul_f64s(r1, r2);
-        d = simd.add_f64s(d, core_sq);
-        cross_sq = simd.add_f64s(cross_sq, area);
+        product = on.mul(r1, r2);
+        d = on.add(d, core_sq);
+        cross_sq = on.add(cross_sq, area);
+    } else if TO_SEGMENT {
+        // beyond an end the distance to it replaces h: L^2 = |c|^2 / r^2 instead of length^2
+        let nearest_sq = on.min(from_start.distance_sq, from_end.distance_sq);
+        let beyond = on.greater(d, nearest_sq);
+        let ratio_sq = on.div(cross_sq, on.max(nearest_sq, on.splat(LEAST_SQUARE)));
+        area = on.mul(on.splat(piece.core_sq), on.select(beyond, ratio_sq, on.splat(piece.length_sq)));
+        area_sq = on.mul(area, area);
     }
 
     // s = width for d <= 0, |c|^2 / width for d > 0
-    let width = simd.add_f64s(product, simd.abs_f64s(d));
-    let ahead = simd.greater_than_f64s(d, splat(0.0));
-    let above = simd.select_f64s(ahead, cross_sq, width);
-    let below = simd.mul_f64s(product, simd.select_f64s(ahead, width, splat(1.0)));
-    let core = M::denominator_sq(simd, Seen { cross_sq, area, area_sq });
-    let square = simd.mul_f64s(simd.mul_f64s(below, below), core);
-    let inverse = roots.reciprocal_sqrt(simd, simd.max_f64s(square, splat(LEAST_DENOMINATOR)));
+    let width = on.add(product, on.abs(d));
+    let ahead = on.greater(d, on.splat(0.0));
+    let above = on.select(ahead, cross_sq, width);
+    let below = on.mul(product, on.select(ahead, width, on.splat(1.0)));
+    let core = M::denominator_sq(on, Seen { cross_sq, area, area_sq });
+    let square = on.mul(on.mul(below, below), core);
+    let inverse = on.reciprocal_sqrt(on.max(square, on.splat(LEAST_SQUARE)));
 
-    let strength = simd.mul_f64s(splat(piece.strength), simd.add_f64s(r1, r2));
-    let weight = simd.mul_f64s(simd.mul_f64s(strength, above), inverse);
-    let on_end = simd.less_than_or_equal_f64s(bare_product, splat(piece.end_guard));
-    let weight = simd.select_f64s(on_end, splat(0.0), weight);
+    let strength = on.mul(on.splat(piece.strength), on.add(r1, r2));
+    let weight = on.select(on_end, on.splat(0.0), on.mul(on.mul(strength, above), inverse));
     for (total, c) in sum.iter_mut().zip(cross) {
-        *total = simd.mul_add_e_f64s(weight, c, *total);
+        *total = on.mul_add(weight, c, *total);
     }
 }

@@ -5,6 +5,7 @@ pub mod induced_velocity;
 pub mod threads;
 
 mod kernel;
+mod lanes;
 mod models;
 mod roots;
 mod strands;

@@ -1,8 +1,9 @@
 //! Core models as denominators of the segment law, several points at a time.
 
 use super::core::LAMB_OSEEN_ALPHA;
+use super::lanes::Lanes;
+use super::roots::Roots;
 use pulp::Simd;
-use pulp::bytemuck::{cast_slice, cast_slice_mut};
 
 /// What a core sees of a segment, for several points; r_c: core radius, L: |c| over the core distance.
 pub(super) struct Seen<S: Simd> {
@@ -19,7 +20,7 @@ pub(super) trait Model: Copy + Send + Sync {
     /// Whether the core radius softens the distance in the kernel itself.
     const SOFTENED: bool = false;
     /// (|c|^2 / F)^2 for every point.
-    fn denominator_sq<S: Simd>(simd: S, seen: Seen<S>) -> S::f64s;
+    fn denominator_sq<S: Simd, R: Roots<S>>(on: Lanes<S, R>, seen: Seen<S>) -> S::f64s;
 }
 
 /// F = 1.
@@ -43,47 +44,40 @@ pub(super) struct RosenheadMoore;
 
 impl Model for Singular {
     #[inline(always)]
-    fn denominator_sq<S: Simd>(simd: S, seen: Seen<S>) -> S::f64s {
-        Rankine::denominator_sq(simd, seen)
+    fn denominator_sq<S: Simd, R: Roots<S>>(on: Lanes<S, R>, seen: Seen<S>) -> S::f64s {
+        Rankine::denominator_sq(on, seen)
     }
 }
 
 impl Model for Scully {
     #[inline(always)]
-    fn denominator_sq<S: Simd>(simd: S, seen: Seen<S>) -> S::f64s {
-        let sum = simd.add_f64s(seen.cross_sq, seen.area);
-        simd.mul_f64s(sum, sum)
+    fn denominator_sq<S: Simd, R: Roots<S>>(on: Lanes<S, R>, seen: Seen<S>) -> S::f64s {
+        let sum = on.add(seen.cross_sq, seen.area);
+        on.mul(sum, sum)
     }
 }
 
 impl Model for Vatistas2 {
     #[inline(always)]
-    fn denominator_sq<S: Simd>(simd: S, seen: Seen<S>) -> S::f64s {
-        simd.mul_add_e_f64s(seen.cross_sq, seen.cross_sq, seen.area_sq)
+    fn denominator_sq<S: Simd, R: Roots<S>>(on: Lanes<S, R>, seen: Seen<S>) -> S::f64s {
+        on.mul_add(seen.cross_sq, seen.cross_sq, seen.area_sq)
     }
 }
 
 impl Model for Rankine {
     #[inline(always)]
-    fn denominator_sq<S: Simd>(simd: S, seen: Seen<S>) -> S::f64s {
-        let largest = simd.max_f64s(seen.cross_sq, seen.area);
-        simd.mul_f64s(largest, largest)
+    fn denominator_sq<S: Simd, R: Roots<S>>(on: Lanes<S, R>, seen: Seen<S>) -> S::f64s {
+        let largest = on.max(seen.cross_sq, seen.area);
+        on.mul(largest, largest)
     }
 }
 
 impl Model for LambOseen {
     #[inline(always)]
-    fn denominator_sq<S: Simd>(_simd: S, seen: Seen<S>) -> S::f64s {
-        // no vector exponential: one lane after the other
-        let (cross_sq, area) = ([seen.cross_sq], [seen.area]);
-        let mut result = cross_sq;
-        let areas: &[f64] = cast_slice(&area);
-        let lanes: &mut [f64] = cast_slice_mut(&mut result);
-        for (lane, &area) in lanes.iter_mut().zip(areas) {
-            let denominator = gaussian_denominator(*lane, area);
-            *lane = denominator * denominator;
-        }
-        result[0]
+    fn denominator_sq<S: Simd, R: Roots<S>>(on: Lanes<S, R>, seen: Seen<S>) -> S::f64s {
+        // no vector exponential: one point after the other
+        let denominator = on.each(seen.cross_sq, seen.area, gaussian_denominator);
+        on.mul(denominator, denominator)
     }
 }
 
@@ -102,7 +96,7 @@ fn gaussian_denominator(cross_sq: f64, area: f64) -> f64 {
 impl Model for RosenheadMoore {
     const SOFTENED: bool = true;
     #[inline(always)]
-    fn denominator_sq<S: Simd>(simd: S, seen: Seen<S>) -> S::f64s {
-        simd.mul_f64s(seen.cross_sq, seen.cross_sq)
+    fn denominator_sq<S: Simd, R: Roots<S>>(on: Lanes<S, R>, seen: Seen<S>) -> S::f64s {
+        on.mul(seen.cross_sq, seen.cross_sq)
     }
 }

@@ -1,13 +1,14 @@
-//! Square roots and their reciprocals in several lanes, by the fastest means that is exact to rounding.
+//! Square roots and their reciprocals, by the fastest means that is exact to rounding.
 
+use super::lanes::Lanes;
 use pulp::Simd;
 
-/// Square roots of lanes.
+/// Square roots of positive numbers.
 pub(super) trait Roots<S: Simd>: Copy {
-    /// Square root of each lane; undefined (but no trap) at zero.
-    fn sqrt(self, simd: S, x: S::f64s) -> S::f64s;
-    /// One over the square root of each positive, normal lane.
-    fn reciprocal_sqrt(self, simd: S, x: S::f64s) -> S::f64s;
+    /// Square root.
+    fn sqrt(self, on: Lanes<S, Self>, x: S::f64s) -> S::f64s;
+    /// One over the square root.
+    fn reciprocal_sqrt(self, on: Lanes<S, Self>, x: S::f64s) -> S::f64s;
 }
 
 /// The instructions for root and division.
@@ -16,25 +17,48 @@ pub(super) struct Exact;
 
 impl<S: Simd> Roots<S> for Exact {
     #[inline(always)]
-    fn sqrt(self, simd: S, x: S::f64s) -> S::f64s {
-        simd.sqrt_f64s(x)
+    fn sqrt(self, on: Lanes<S, Self>, x: S::f64s) -> S::f64s {
+        on.simd.sqrt_f64s(x)
     }
     #[inline(always)]
-    fn reciprocal_sqrt(self, simd: S, x: S::f64s) -> S::f64s {
-        simd.div_f64s(simd.splat_f64s(1.0), simd.sqrt_f64s(x))
+    fn reciprocal_sqrt(self, on: Lanes<S, Self>, x: S::f64s) -> S::f64s {
+        on.div(on.splat(1.0), self.sqrt(on, x))
     }
 }
 
-/// Two Newton steps for 1 / sqrt(x) from an estimate good to 2^-14: 2^-27, then below rounding.
+/// One Newton step for 1 / sqrt(x); an error e of the estimate becomes 3/2 e^2.
 #[inline(always)]
-pub(super) fn refined<S: Simd>(simd: S, x: S::f64s, estimate: S::f64s) -> S::f64s {
-    let (half, one) = (simd.splat_f64s(0.5), simd.splat_f64s(1.0));
-    let mut y = estimate;
-    for _ in 0..2 {
-        let defect = simd.negate_mul_add_e_f64s(simd.mul_f64s(x, y), y, one);
-        y = simd.mul_add_e_f64s(simd.mul_f64s(half, y), defect, y);
-    }
-    y
+fn newton_step<S: Simd, R: Roots<S>>(
+    on: Lanes<S, R>,
+    half_x: S::f64s,
+    estimate: S::f64s,
+) -> S::f64s {
+    let half_defect = on.sub_mul(on.splat(0.5), on.mul(half_x, estimate), estimate);
+    on.mul_add(estimate, half_defect, estimate)
+}
+
+/// 1 / sqrt(x) from an estimate good to 2^-14: one step to 2^-27, one below rounding.
+#[inline(always)]
+fn refined_reciprocal<S: Simd, R: Roots<S>>(
+    on: Lanes<S, R>,
+    x: S::f64s,
+    estimate: S::f64s,
+) -> S::f64s {
+    let half_x = on.mul(on.splat(0.5), x);
+    newton_step(on, half_x, newton_step(on, half_x, estimate))
+}
+
+/// sqrt(x) from the same estimate: one step for the reciprocal, one for x times it.
+#[inline(always)]
+fn refined_root<S: Simd, R: Roots<S>>(
+    on: Lanes<S, R>,
+    x: S::f64s,
+    estimate: S::f64s,
+) -> S::f64s {
+    let reciprocal = newton_step(on, on.mul(on.splat(0.5), x), estimate);
+    let root = on.mul(x, reciprocal);
+    let half_defect = on.sub_mul(on.splat(0.5), on.mul(on.splat(0.5), root), reciprocal);
+    on.mul_add(root, half_defect, root)
 }
 
 /// Estimates of AVX-512, refined.
@@ -43,31 +67,41 @@ pub(super) fn refined<S: Simd>(simd: S, x: S::f64s, estimate: S::f64s) -> S::f64
 pub(super) struct Refined;
 
 #[cfg(target_arch = "x86_64")]
-impl Roots<pulp::x86::V4> for Refined {
-    #[inline(always)]
-    fn sqrt(self, simd: pulp::x86::V4, x: pulp::f64x8) -> pulp::f64x8 {
-        simd.mul_f64s(x, self.reciprocal_sqrt(simd, x))
-    }
-    #[inline(always)]
-    fn reciprocal_sqrt(self, simd: pulp::x86::V4, x: pulp::f64x8) -> pulp::f64x8 {
-        let estimate = simd.avx512f._mm512_rsqrt14_pd(pulp::bytemuck::cast(x));
-        refined(simd, x, pulp::bytemuck::cast(estimate))
+mod avx512 {
+    use super::{Lanes, Refined, Roots, refined_reciprocal, refined_root};
+    use pulp::bytemuck::cast;
+    use pulp::f64x8;
+    use pulp::x86::V4;
+
+    impl Roots<V4> for Refined {
+        #[inline(always)]
+        fn sqrt(self, on: Lanes<V4, Self>, x: f64x8) -> f64x8 {
+            refined_root(on, x, cast(on.simd.avx512f._mm512_rsqrt14_pd(cast(x))))
+        }
+        #[inline(always)]
+        fn reciprocal_sqrt(self, on: Lanes<V4, Self>, x: f64x8) -> f64x8 {
+            refined_reciprocal(on, x, cast(on.simd.avx512f._mm512_rsqrt14_pd(cast(x))))
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::refined;
+    use super::{Exact, Lanes, refined_reciprocal, refined_root};
     use pulp::Scalar;
 
-    /// AVX-512 is not everywhere: its refinement, from the worst estimate it may get, on any machine.
+    /// AVX-512 is not everywhere: its refinement, from the worst estimates it may start with, on any machine.
     #[test]
     fn two_steps_from_fourteen_bits_reach_rounding() {
+        let on = Lanes::<Scalar, Exact>::new(Scalar::new(), Exact);
         for x in [1e-299, 3e-40, 0.7, 1.0, 1.999, 4.0, 12345.678, 9e200] {
             for error in [-1.0, -0.4, 0.0, 0.7, 1.0] {
-                let exact = 1.0 / f64::sqrt(x);
-                let y = refined(Scalar::new(), x, exact * (1.0 + error * f64::powi(2.0, -14)));
-                assert!((y / exact - 1.0).abs() <= 4.5e-16, "{x} {error}: {:e}", y / exact - 1.0);
+                let exact = f64::sqrt(x);
+                let estimate = (1.0 + error * f64::powi(2.0, -14)) / exact;
+                let reciprocal = refined_reciprocal(on, x, estimate);
+                assert!((reciprocal * exact - 1.0).abs() <= 6e-16, "{x} {error}: {:e}", reciprocal * exact - 1.0);
+                let root = refined_root(on, x, estimate);
+                assert!((root / exact - 1.0).abs() <= 4.5e-16, "{x} {error}: {:e}", root / exact - 1.0);
             }
         }
     }

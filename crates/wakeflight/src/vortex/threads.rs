@@ -68,10 +68,11 @@ pub(super) fn pool() -> Option<Arc<ThreadPool>> {
     }
     let process = std::process::id();
     let mut held = POOL.lock().unwrap_or_else(PoisonError::into_inner);
-    if let Some(owned) = held.as_ref() {
-        if owned.process == process && owned.pool.current_num_threads() == n {
-            return Some(Arc::clone(&owned.pool));
-        }
+    if let Some(owned) = held.as_ref()
+        && owned.process == process
+        && owned.pool.current_num_threads() == n
+    {
+        return Some(Arc::clone(&owned.pool));
     }
     let pool = Arc::new(ThreadPoolBuilder::new().num_threads(n).thread_name(|i| format!("wakeflight-{i}")).build().ok()?);
     let previous = held.replace(Owned { process, pool: Arc::clone(&pool) });

@@ -1,0 +1,97 @@
+//! Arithmetic on vectors of numbers, one for each point, with the roots of choice.
+
+use super::roots::Roots;
+use pulp::Simd;
+use pulp::bytemuck::{cast_slice, cast_slice_mut};
+
+/// Operations on vectors of `S`, with roots by `R`.
+#[derive(Clone, Copy)]
+pub(super) struct Lanes<S, R> {
+    /// Instruction set.
+    pub simd: S,
+    roots: R,
+}
+
+impl<S: Simd, R: Roots<S>> Lanes<S, R> {
+    /// Points of a vector.
+    pub const COUNT: usize = S::F64_LANES;
+
+    pub fn new(simd: S, roots: R) -> Self {
+        Self { simd, roots }
+    }
+    #[inline(always)]
+    pub fn splat(self, x: f64) -> S::f64s {
+        self.simd.splat_f64s(x)
+    }
+    #[inline(always)]
+    pub fn add(self, a: S::f64s, b: S::f64s) -> S::f64s {
+        self.simd.add_f64s(a, b)
+    }
+    #[inline(always)]
+    pub fn sub(self, a: S::f64s, b: S::f64s) -> S::f64s {
+        self.simd.sub_f64s(a, b)
+    }
+    #[inline(always)]
+    pub fn mul(self, a: S::f64s, b: S::f64s) -> S::f64s {
+        self.simd.mul_f64s(a, b)
+    }
+    #[inline(always)]
+    pub fn div(self, a: S::f64s, b: S::f64s) -> S::f64s {
+        self.simd.div_f64s(a, b)
+    }
+    /// a b + c.
+    #[inline(always)]
+    pub fn mul_add(self, a: S::f64s, b: S::f64s, c: S::f64s) -> S::f64s {
+        self.simd.mul_add_e_f64s(a, b, c)
+    }
+    /// c - a b.
+    #[inline(always)]
+    pub fn sub_mul(self, c: S::f64s, a: S::f64s, b: S::f64s) -> S::f64s {
+        self.simd.negate_mul_add_e_f64s(a, b, c)
+    }
+    #[inline(always)]
+    pub fn max(self, a: S::f64s, b: S::f64s) -> S::f64s {
+        self.simd.max_f64s(a, b)
+    }
+    #[inline(always)]
+    pub fn min(self, a: S::f64s, b: S::f64s) -> S::f64s {
+        self.simd.min_f64s(a, b)
+    }
+    #[inline(always)]
+    pub fn abs(self, a: S::f64s) -> S::f64s {
+        self.simd.abs_f64s(a)
+    }
+    #[inline(always)]
+    pub fn greater(self, a: S::f64s, b: S::f64s) -> S::m64s {
+        self.simd.greater_than_f64s(a, b)
+    }
+    #[inline(always)]
+    pub fn not_greater(self, a: S::f64s, b: S::f64s) -> S::m64s {
+        self.simd.less_than_or_equal_f64s(a, b)
+    }
+    #[inline(always)]
+    pub fn select(self, truth: S::m64s, yes: S::f64s, no: S::f64s) -> S::f64s {
+        self.simd.select_f64s(truth, yes, no)
+    }
+    /// Square root of positive numbers.
+    #[inline(always)]
+    pub fn sqrt(self, a: S::f64s) -> S::f64s {
+        self.roots.sqrt(self, a)
+    }
+    /// One over the square root of positive numbers.
+    #[inline(always)]
+    pub fn reciprocal_sqrt(self, a: S::f64s) -> S::f64s {
+        self.roots.reciprocal_sqrt(self, a)
+    }
+    /// Any function of two numbers, one point after the other.
+    #[inline(always)]
+    pub fn each(self, a: S::f64s, b: S::f64s, f: impl Fn(f64, f64) -> f64) -> S::f64s {
+        let mut result = a;
+        let others: &[f64] = cast_slice(std::slice::from_ref(&b));
+        let own: &mut [f64] = cast_slice_mut(std::slice::from_mut(&mut result));
+        for (x, y) in own.iter_mut().zip(others) {
+            *x = f(*x, *y);
+        }
+        result
+    }
+}
