@@ -18,11 +18,11 @@ pub struct Segments {
 
 /// Adds to `velocity` the velocity induced at `points` [m/s]; sources in their order for every point, parallel over points.
 pub fn add_induced_velocity(points: &[[f64; 3]], segments: &Segments, core: Core, velocity: &mut [[f64; 3]]) {
-    add_induced_velocity_with(points, segments, core, CoreDistance::Line, velocity);
+    add_segments_velocity(points, segments, core, CoreDistance::Line, velocity);
 }
 
 /// Same with a choice of the distance in the core factor (n = 2 profile, or no core).
-pub fn add_induced_velocity_with(
+pub fn add_segments_velocity(
     points: &[[f64; 3]],
     segments: &Segments,
     core: Core,
