@@ -425,3 +425,10 @@ fn motion(
     m.q_dot.iter_mut().zip(q_dot).for_each(|(a, b)| *a = b);
     m
 }
+
+/// Registers the classes of this file.
+pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
+    m.add_class::<PyAircraft>()?;
+    m.add_class::<PyInputs>()?;
+    m.add_class::<PyTrimProblem>()
+}

@@ -5,16 +5,16 @@ mod aircraft;
 mod atmosphere;
 mod blade;
 mod vortex;
+mod wake;
 
 /// The compiled core of wakeflight.
 #[pymodule]
 fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add("__version__", env!("CARGO_PKG_VERSION"))?;
-    m.add_function(wrap_pyfunction!(atmosphere::standard_atmosphere, m)?)?;
-    m.add_class::<aircraft::PyAircraft>()?;
-    m.add_class::<aircraft::PyInputs>()?;
-    m.add_class::<aircraft::PyTrimProblem>()?;
-    m.add_class::<blade::BladeModes>()?;
+    atmosphere::register(m)?;
+    aircraft::register(m)?;
+    blade::register(m)?;
     vortex::register(m)?;
+    wake::register(m)?;
     Ok(())
 }

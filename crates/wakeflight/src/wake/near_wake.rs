@@ -3,7 +3,8 @@
 use super::error::WakeError;
 use super::geometry::{BladeGrid, blade_point};
 use super::options::{BladeState, CoreDistance, HubMotion, WakeOptions};
-use super::velocity_field::{add_segment_velocity, push, sum};
+use super::velocity_field::{push, segment_velocity, sum};
+use crate::vortex::core::Core;
 use crate::vortex::induced_velocity::Segments;
 
 /// Matrix N (n_stations, n_stations), row-major [s/m2]: inflow at the stations that the near wake of the own blade adds,
@@ -41,7 +42,7 @@ pub fn near_wake_matrix(
             push(&mut trailer, node(k), node(k + 1), 1.0, 0.0);
         }
         velocity.fill([0.0; 3]);
-        add_segment_velocity(&stations, &trailer, CoreDistance::Line, &mut velocity);
+        segment_velocity(&stations, &trailer, Core::Singular, CoreDistance::Line, &mut velocity);
         for (i, v) in velocity.iter().enumerate() {
             let inflow = -v[2] / options.tip_speed();
             // element inboard of this edge feeds the trailer, element outboard of it takes away

@@ -1,7 +1,7 @@
 //! Rotor, grid and vortex model of a free wake; motion of the hub and of a blade.
 
 use super::error::{WakeError, finite};
-pub use crate::vortex::core::CoreDistance;
+use crate::vortex::core;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, TAU};
 
@@ -57,6 +57,25 @@ pub enum InboardWake {
     None,
     /// Rigid helical filaments.
     Sheet,
+}
+
+/// Distance that enters the core factor of a segment.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum CoreDistance {
+    /// To the infinite line through the segment.
+    Line,
+    /// To the segment itself.
+    Segment,
+}
+
+impl From<CoreDistance> for core::CoreDistance {
+    fn from(distance: CoreDistance) -> Self {
+        match distance {
+            CoreDistance::Line => Self::Line,
+            CoreDistance::Segment => Self::Segment,
+        }
+    }
 }
 
 /// Options of a free wake. Rotor data have no default; numerical parameters have.

@@ -41,7 +41,7 @@ impl VortexSegments {
 
 impl InducedVelocity for VortexSegments {
     fn add(&self, points: &[[f64; 3]], segments: &Segments, velocity: &mut [[f64; 3]]) {
-        add_segment_velocity(points, segments, self.core_distance, velocity);
+        segment_velocity(points, segments, Core::Vatistas2, self.core_distance, velocity);
     }
 
     fn self_induced(
@@ -77,13 +77,14 @@ impl<F: Fn([f64; 3]) -> [f64; 3] + Clone + Send + Sync> InducedVelocity for Pres
 }
 
 /// The one door to the segment law.
-pub(crate) fn add_segment_velocity(
+pub(crate) fn segment_velocity(
     points: &[[f64; 3]],
     segments: &Segments,
+    core: Core,
     core_distance: CoreDistance,
     velocity: &mut [[f64; 3]],
 ) {
-    add_segments_velocity(points, segments, Core::Vatistas2, core_distance, velocity);
+    add_segments_velocity(points, segments, core, core_distance.into(), velocity);
 }
 
 /// The rotor and its wake at one instant.

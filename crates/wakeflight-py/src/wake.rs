@@ -1,0 +1,289 @@
+//! Free wake: conversions only.
+
+use numpy::ndarray::Array;
+use numpy::{Element, IntoPyArray, PyArray2, PyArray3, PyReadonlyArray1, PyReadonlyArray2};
+use pyo3::exceptions::{PyArithmeticError, PyValueError};
+use pyo3::prelude::*;
+use wakeflight::wake::{self, BladeState, HubMotion, StepReport, WakeError, WakeOptions};
+
+/// Input at fault: ValueError; numerical failure: ArithmeticError.
+fn py_error(error: WakeError) -> PyErr {
+    if error.is_numerical() {
+        PyArithmeticError::new_err(error.to_string())
+    } else {
+        PyValueError::new_err(error.to_string())
+    }
+}
+
+fn parse_options(options_json: &str) -> PyResult<WakeOptions> {
+    serde_json::from_str(options_json).map_err(|e| PyValueError::new_err(format!("wake options: {e}")))
+}
+
+/// Copy of an array of any memory layout in row-major order.
+fn row_major<const N: usize>(name: &str, array: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<[f64; N]>> {
+    let view = array.as_array();
+    if view.ncols() != N {
+        return Err(PyValueError::new_err(format!("{name} has {} columns, {N} expected", view.ncols())));
+    }
+    Ok(view.rows().into_iter().map(|row| std::array::from_fn(|c| row[c])).collect())
+}
+
+fn flat(array: &PyReadonlyArray2<'_, f64>) -> Vec<f64> {
+    array.as_array().iter().copied().collect()
+}
+
+/// (n, m) array from row-major values.
+fn matrix<'py, T: Element>(py: Python<'py>, values: Vec<T>, rows: usize) -> PyResult<Bound<'py, PyArray2<T>>> {
+    let columns = values.len().checked_div(rows).unwrap_or(0);
+    let array = Array::from_shape_vec((rows, columns), values).map_err(|e| PyValueError::new_err(e.to_string()))?;
+    Ok(array.into_pyarray(py))
+}
+
+/// (n, m, 3) array from row-major vectors.
+fn vectors<'py>(py: Python<'py>, values: &[[f64; 3]], rows: usize) -> PyResult<Bound<'py, PyArray3<f64>>> {
+    let columns = values.len().checked_div(rows).unwrap_or(0);
+    let array = Array::from_shape_vec((rows, columns, 3), values.as_flattened().to_vec())
+        .map_err(|e| PyValueError::new_err(e.to_string()))?;
+    Ok(array.into_pyarray(py))
+}
+
+/// Matrix N (n_stations, n_stations) [s/m2]: inflow of the near wake of the own blade, lambda_i = sum_j N_ij Gamma_j.
+#[pyfunction]
+fn near_wake_matrix<'py>(
+    py: Python<'py>,
+    options_json: &str,
+    hub_velocity: [f64; 3],
+    hub_rates: [f64; 3],
+    psi: f64,
+    flap: f64,
+    lead: f64,
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let options = parse_options(options_json)?;
+    let hub = HubMotion { velocity: hub_velocity, rates: hub_rates };
+    let values = py
+        .detach(|| wake::near_wake_matrix(&options, &hub, &BladeState { psi, flap, lead }))
+        .map_err(py_error)?;
+    matrix(py, values, options.n_stations)
+}
+
+/// Periodic wake of a steady flight condition.
+#[pyclass(module = "wakeflight._core")]
+#[derive(Clone)]
+struct RelaxationWake {
+    inner: wake::RelaxationWake,
+}
+
+#[pymethods]
+impl RelaxationWake {
+    #[new]
+    fn new(options_json: &str, hub_velocity: [f64; 3], hub_rates: [f64; 3], mean_inflow: f64) -> PyResult<Self> {
+        let options = parse_options(options_json)?;
+        let hub = HubMotion { velocity: hub_velocity, rates: hub_rates };
+        let inner = wake::RelaxationWake::new(options, hub, mean_inflow).map_err(py_error)?;
+        Ok(Self { inner })
+    }
+
+    /// Hub motion, flap and lead (n_azimuths) [rad] and bound circulation (n_azimuths, n_stations) [m2/s].
+    fn set_state(
+        &mut self,
+        py: Python<'_>,
+        hub_velocity: [f64; 3],
+        hub_rates: [f64; 3],
+        flap: PyReadonlyArray1<'_, f64>,
+        lead: PyReadonlyArray1<'_, f64>,
+        circulation: PyReadonlyArray2<'_, f64>,
+    ) -> PyResult<()> {
+        let (flap, lead) = (flap.as_array(), lead.as_array());
+        if flap.len() != lead.len() {
+            return Err(PyValueError::new_err(format!("flap has {} values, lead {}", flap.len(), lead.len())));
+        }
+        let blades: Vec<(f64, f64)> = flap.iter().copied().zip(lead.iter().copied()).collect();
+        let circulation = flat(&circulation);
+        let hub = HubMotion { velocity: hub_velocity, rates: hub_rates };
+        py.detach(|| self.inner.set_state(hub, &blades, &circulation)).map_err(py_error)
+    }
+
+    /// Mean induced inflow that carries the inboard sheet.
+    fn set_mean_inflow(&mut self, mean_inflow: f64) -> PyResult<()> {
+        self.inner.set_mean_inflow(mean_inflow).map_err(py_error)
+    }
+
+    /// Relaxation factor of the sweeps.
+    fn set_relaxation(&mut self, relaxation: f64) -> PyResult<()> {
+        self.inner.set_relaxation(relaxation).map_err(py_error)
+    }
+
+    /// Does n sweeps; returns their RMS changes (n, 2) over R: all markers, first turn.
+    fn sweep<'py>(&mut self, py: Python<'py>, n: usize) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let norms = py.detach(|| self.inner.sweep(n)).map_err(py_error)?;
+        matrix(py, norms.iter().flat_map(|norm| [norm.all, norm.first_turn]).collect(), n)
+    }
+
+    /// Inflow at the stations without that of the own near wake (n_azimuths, n_stations).
+    fn inflow_far<'py>(&mut self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let values = py.detach(|| self.inner.inflow_far());
+        matrix(py, values, self.inner.options().steps_per_revolution)
+    }
+
+    /// Velocity (n, 3) [m/s] induced at points (n, 3) [m], blade 1 at the azimuth of row `azimuth_index`.
+    fn wake_velocity<'py>(
+        &self,
+        py: Python<'py>,
+        points: PyReadonlyArray2<'_, f64>,
+        azimuth_index: usize,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let points: Vec<[f64; 3]> = row_major("points", &points)?;
+        let velocity = py.detach(|| self.inner.wake_velocity(&points, azimuth_index));
+        matrix(py, velocity.as_flattened().to_vec(), velocity.len())
+    }
+
+    /// Markers (n_azimuths, n_segments + 1, 3) [m].
+    fn position<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
+        vectors(py, self.inner.position(), self.inner.options().steps_per_revolution)
+    }
+
+    /// Core radii of the segments (n_azimuths, n_segments) [m].
+    fn core_radius<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        matrix(py, self.inner.core_radius(), self.inner.options().steps_per_revolution)
+    }
+
+    /// Circulation of the tip vortex released at every azimuth (n_azimuths) [m2/s].
+    fn tip_circulation(&self) -> Vec<f64> {
+        self.inner.tip_circulation().to_vec()
+    }
+
+    /// Radii of the stations (n_stations) [m].
+    fn stations(&self) -> Vec<f64> {
+        self.inner.grid().stations.clone()
+    }
+
+    /// Edges of the bound elements (n_stations + 1) [m].
+    fn edges(&self) -> Vec<f64> {
+        self.inner.grid().edges.clone()
+    }
+
+    /// Segment evaluations so far.
+    #[getter]
+    fn segment_evaluations(&self) -> u64 {
+        self.inner.segment_evaluations()
+    }
+
+    /// Sweeps so far.
+    #[getter]
+    fn sweeps(&self) -> u64 {
+        self.inner.sweeps()
+    }
+
+    /// Independent copy.
+    fn copy(&self) -> Self {
+        self.clone()
+    }
+}
+
+/// What one step did: largest motion of a marker and odd-even monitor (over R), segment evaluations.
+type Report = (f64, f64, u64);
+
+/// Time-accurate wake.
+#[pyclass(module = "wakeflight._core")]
+#[derive(Clone)]
+struct TimeMarchingWake {
+    inner: wake::TimeMarchingWake,
+}
+
+#[pymethods]
+impl TimeMarchingWake {
+    /// Starts from a periodic wake with blade 1 at row `azimuth_index`.
+    #[staticmethod]
+    fn from_relaxation(relaxation: &RelaxationWake, azimuth_index: usize) -> PyResult<Self> {
+        let inner =
+            wake::TimeMarchingWake::from_relaxation(&relaxation.inner, azimuth_index).map_err(py_error)?;
+        Ok(Self { inner })
+    }
+
+    /// One step of azimuth to the hub motion, the blades (n_blades, 3: psi, flap, lead) [rad] and the bound circulation
+    /// (n_blades, n_stations) [m2/s]. Returns (max_displacement, odd_even, segment_evaluations).
+    fn step(
+        &mut self,
+        py: Python<'_>,
+        hub_velocity: [f64; 3],
+        hub_rates: [f64; 3],
+        blades: PyReadonlyArray2<'_, f64>,
+        circulation: PyReadonlyArray2<'_, f64>,
+    ) -> PyResult<Report> {
+        let hub = HubMotion { velocity: hub_velocity, rates: hub_rates };
+        let blades: Vec<BladeState> = row_major::<3>("blades", &blades)?
+            .into_iter()
+            .map(|[psi, flap, lead]| BladeState { psi, flap, lead })
+            .collect();
+        let circulation = flat(&circulation);
+        let StepReport { max_displacement, odd_even, segment_evaluations } =
+            py.detach(|| self.inner.step(hub, &blades, &circulation)).map_err(py_error)?;
+        Ok((max_displacement, odd_even, segment_evaluations))
+    }
+
+    /// Bound circulation of the present level (n_blades, n_stations) [m2/s], replaced without advancing the wake.
+    fn set_circulation(&mut self, circulation: PyReadonlyArray2<'_, f64>) -> PyResult<()> {
+        self.inner.set_circulation(&flat(&circulation)).map_err(py_error)
+    }
+
+    /// Mean induced inflow that carries the inboard sheet.
+    fn set_mean_inflow(&mut self, mean_inflow: f64) -> PyResult<()> {
+        self.inner.set_mean_inflow(mean_inflow).map_err(py_error)
+    }
+
+    /// Inflow at the stations without that of the own near wake (n_blades, n_stations).
+    fn inflow_far<'py>(&mut self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let values = py.detach(|| self.inner.inflow_far());
+        matrix(py, values, self.inner.options().n_blades)
+    }
+
+    /// Velocity (n, 3) [m/s] induced at points (n, 3) [m].
+    fn wake_velocity<'py>(
+        &self,
+        py: Python<'py>,
+        points: PyReadonlyArray2<'_, f64>,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let points: Vec<[f64; 3]> = row_major("points", &points)?;
+        let velocity = py.detach(|| self.inner.wake_velocity(&points));
+        matrix(py, velocity.as_flattened().to_vec(), velocity.len())
+    }
+
+    /// Markers (n_blades, n_segments + 1, 3) [m].
+    fn position<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
+        vectors(py, self.inner.position(), self.inner.options().n_blades)
+    }
+
+    /// Circulation of the markers (n_blades, n_segments + 1) [m2/s].
+    fn marker_circulation<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        matrix(py, self.inner.marker_circulation().to_vec(), self.inner.options().n_blades)
+    }
+
+    /// Core radii of the segments (n_blades, n_segments) [m].
+    fn core_radius<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        matrix(py, self.inner.core_radius(), self.inner.options().n_blades)
+    }
+
+    /// Segment evaluations so far.
+    #[getter]
+    fn segment_evaluations(&self) -> u64 {
+        self.inner.segment_evaluations()
+    }
+
+    /// Steps so far.
+    #[getter]
+    fn steps(&self) -> u64 {
+        self.inner.steps()
+    }
+
+    /// Independent copy.
+    fn copy(&self) -> Self {
+        self.clone()
+    }
+}
+
+/// Adds the wake to the module.
+pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
+    m.add_class::<RelaxationWake>()?;
+    m.add_class::<TimeMarchingWake>()?;
+    m.add_function(wrap_pyfunction!(near_wake_matrix, m)?)
+}
