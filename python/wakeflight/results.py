@@ -75,7 +75,7 @@ def load(path: str | Path) -> xr.Dataset:
 
 
 def flat_attributes(attributes: Mapping[str, Any]) -> dict[str, str | int | float]:
-    """Attributes as plain text and numbers: a mapping becomes its JSON text and one dotted name per scalar in it."""
+    """Attributes as plain text and numbers: a mapping becomes JSON text and a dotted name per scalar."""
     flat: dict[str, str | int | float] = {}
     for name, value in attributes.items():
         if isinstance(value, Mapping):

@@ -25,7 +25,7 @@ def inflow_field(psi, station, mean=0.012, front=1.1, side=-0.1):
     return mean * (1 + station * (front * np.cos(psi) + side * np.sin(psi))) + bump
 
 
-def wake_geometry(revolution, turns=4, step=np.deg2rad(10), mu=0.185, sink=0.03):
+def wake_geometry(revolution, turns=4, step=TURN / 36, mu=0.185, sink=0.03):
     """Skewed helices of all blades in hub axes [m] (blade, age, xyz), rolled up a little at the sides."""
     age = np.arange(0, turns * TURN + step / 2, step)
     nodes = []
@@ -66,7 +66,8 @@ def run_arrays(revolutions=12, wake=True, strength=1.0):
         "p": 0.02 * late, "q": 0.25 * np.gradient(late, time), "r": -0.01 * late,
         "roll": 0.02 * late, "pitch": pitch, "yaw": 0.005 * late,
         "north": north, "east": 0.3 * time * late, "down": 4.3 * time - 6 * late,
-        "collective": 4.6 + 3.7 * push, "longitudinal": 5.2 * steady, "lateral": 5.0 * steady, "pedal": 2.6 * steady,
+        "collective": 4.6 + 3.7 * push, "longitudinal": 5.2 * steady,
+        "lateral": 5.0 * steady, "pedal": 2.6 * steady,
         "force_x": -2000 + 4000 * late, "force_y": 500 * steady, "force_z": force_z,
         "moment_x": 300 * late, "moment_y": 9000 * push, "moment_z": -2000 * push,
         "beta_1c": np.deg2rad(1.2 - 2.5 * late), "beta_1s": np.deg2rad(-0.5 + 1.0 * push),

@@ -1,9 +1,10 @@
-"""Figures say what the data say: maps lie on the right azimuth, axes carry units, nothing global is touched."""
+"""Figures say what the data say: maps lie on the right azimuth, axes carry units."""
 
 import matplotlib
 import numpy as np
 import pytest
 import synthetic
+
 from wakeflight import plotting
 from wakeflight.plotting import comparison, disk, modes, style, trim_maps, wake_geometry
 
@@ -27,8 +28,7 @@ def test_a_map_of_a_changing_flight_has_no_seam(run):
     ramp["inflow"] = run.inflow * 0 + run.time
     field = disk.revolution_map(ramp, "inflow", 5)
     middle = 4.5 * 2 * np.pi / synthetic.OMEGA
-    np.testing.assert_allclose(field, middle, rtol=0, atol=0.51 * float(run.time[1]))
-    assert float(field.max() - field.min()) < 1e-12
+    np.testing.assert_allclose(field, middle, rtol=1e-12)
 
 
 def test_first_harmonics_of_a_linear_field_are_its_coefficients():

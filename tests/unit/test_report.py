@@ -4,6 +4,7 @@ import re
 
 import pytest
 import synthetic
+
 from wakeflight import report
 from wakeflight.export import vtk
 from wakeflight.results import assemble_trim
@@ -33,7 +34,16 @@ def test_figures_are_written_beside_the_page_and_shown_in_it(written):
 
 def test_the_summary_says_what_was_flown_and_what_it_cost(written):
     page = written.read_text()
-    for text in ("uh60a", "time-marching", "0.00660", "12.00 revolutions", "23.00", "21,000", "11.0 in/s", "bdf2"):
+    for text in (
+        "uh60a",
+        "time-marching",
+        "0.00660",
+        "12.00 revolutions",
+        "23.00",
+        "21,000",
+        "11.0 in/s",
+        "bdf2",
+    ):
         assert text in page, text
     assert "did not finish" not in page
 
@@ -64,6 +74,10 @@ def test_wakes_are_exported_as_polylines(tmp_path):
     assert int(piece.get("NumberOfPoints")) == n_points
     position = [float(x) for x in piece.find("./Points/DataArray").text.split()]
     assert position[:3] == pytest.approx(run.wake[1, 0, 0].values, rel=1e-8)
-    assert {array.get("Name") for array in piece.findall("./PointData/DataArray")} == {"age", "blade", "circulation"}
+    assert {array.get("Name") for array in piece.findall("./PointData/DataArray")} == {
+        "age",
+        "blade",
+        "circulation",
+    }
     with pytest.raises(ValueError, match="no wake"):
         vtk.write(synthetic.run("dynamic"), tmp_path)

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import synthetic
+
 from wakeflight.results import ResultsError, assemble, assemble_trim, flat_attributes, load, save
 from wakeflight.schema import RUN, TRIM
 

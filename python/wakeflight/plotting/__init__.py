@@ -1,4 +1,4 @@
-"""Figures: one file each, pure functions from a dataset to a matplotlib figure; `FIGURES` lists those of a run."""
+"""Figures: one file each, pure functions from a dataset to a figure; `FIGURES` lists those of a run."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Plot:
-    """A figure of the report: its file name, what draws it, its caption, and what must hold for it to be drawn."""
+    """A figure of the report: its file name, what draws it, its caption, and whether given data suffice."""
 
     name: str
     figure: Callable[..., Figure]
@@ -87,7 +87,10 @@ COMPARISONS: tuple[Plot, ...] = (
     Plot("monitors", monitors.figure, monitors.CAPTION, lambda runs: bool(monitors.present(runs))),
     Plot("inflow-maps", comparison.inflow_maps, comparison.INFLOW_CAPTION, _all_one_revolution),
     Plot(
-        "wake", comparison.wake_side_views, comparison.WAKE_CAPTION, lambda runs: len(comparison.wakes(runs)) > 0
+        "wake",
+        comparison.wake_side_views,
+        comparison.WAKE_CAPTION,
+        lambda runs: len(comparison.wakes(runs)) > 0,
     ),
     Plot("flight-path", flight_path.figure, flight_path.CAPTION, _always),
     Plot("cost", comparison.cost, comparison.COST_CAPTION, _always),

@@ -16,8 +16,8 @@ if TYPE_CHECKING:
     import xarray as xr
 
 INFLOW_CAPTION = (
-    "Induced inflow by model at the same revolutions, positive down; one colour scale. Nose left, advancing side at "
-    "the top."
+    "Induced inflow by model at the same revolutions, positive down; one colour scale. Nose left, "
+    "advancing side at the top."
 )
 WAKE_CAPTION = "Blade 1's tip vortex from the side in hub axes, by model, at the last snapshot common to all."
 COST_CAPTION = "Wall-clock time by phase and model."
@@ -47,7 +47,7 @@ def wakes(runs: Mapping[str, xr.Dataset]) -> dict[str, xr.Dataset]:
 
 @styled
 def wake_side_views(runs: Mapping[str, xr.Dataset]) -> Figure:
-    """Side views of blade 1's tip vortex, runs over each other, a panel per common snapshot (four at most)."""
+    """Side views of blade 1's tip vortex, runs over each other, a panel per common snapshot."""
     runs = wakes(runs)
     marks = [np.round(run["snapshot_revolution"].values, 2) for run in runs.values()]
     common = sorted(set(marks[0]).intersection(*marks[1:]))
@@ -62,10 +62,15 @@ def wake_side_views(runs: Mapping[str, xr.Dataset]) -> Figure:
         for (name, run), color, line in zip(runs.items(), style.COLORS, style.LINES, strict=False):
             k = int(np.argmin(np.abs(run["snapshot_revolution"].values - mark)))
             blade = run["wake"].isel(snapshot=k, blade=0) / float(run.attrs["radius"])
-            axes.plot(blade.sel(xyz="x"), blade.sel(xyz="z"), color=color, linestyle=line, linewidth=1.0, label=name)
+            axes.plot(
+                blade.sel(xyz="x"), blade.sel(xyz="z"), color=color, linestyle=line, linewidth=1.0, label=name
+            )
         axes.set_ylabel("$z_h/R$, up")
         axes.set_title(f"revolution {mark:g}", loc="left")
-    low, high = (f(limits) for f, limits in zip((min, max), zip(*(a.get_ylim() for a in grid), strict=True), strict=True))
+    low, high = (
+        f(limits)
+        for f, limits in zip((min, max), zip(*(a.get_ylim() for a in grid), strict=True), strict=True)
+    )
     for axes in grid:
         axes.set(ylim=(low, high), aspect="equal")
     grid[-1].set_xlabel("$x_h/R$, aft (nose left)")

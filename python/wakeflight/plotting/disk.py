@@ -32,11 +32,11 @@ def revolutions_flown(run: xr.Dataset) -> float:
 
 
 def revolution_map(run: xr.Dataset, name: str, revolution: float) -> xr.DataArray:
-    """A (time, blade, station) variable over the disk (psi, station), from the revolution that ends at `revolution`.
+    """A (time, blade, station) variable over the disk (psi, station), of the turn ending at `revolution`.
 
     Every blade passes every azimuth once in it: the passages through one azimuth are fitted by a line in time
-    and taken at the middle of the revolution, so the map belongs to one instant and has no seam, even while the
-    flight changes. The azimuth step is that of the record.
+    and taken at the middle of the revolution, so the map belongs to one instant and has no seam, even while
+    the flight changes. The azimuth step is that of the record.
     """
     import xarray as xr
 
@@ -56,11 +56,13 @@ def revolution_map(run: xr.Dataset, name: str, revolution: float) -> xr.DataArra
     grid = first + TURN / n_bins * np.arange(n_bins)
     mean = _periodic(grid, grid[filled], mean[filled])
     attributes = {**run[name].attrs, "revolution": float(revolution)}
-    return xr.DataArray(mean, {"psi": grid, "station": run.station.values}, ("psi", "station"), name, attributes)
+    return xr.DataArray(
+        mean, {"psi": grid, "station": run.station.values}, ("psi", "station"), name, attributes
+    )
 
 
 def difference(field: xr.DataArray, reference: xr.DataArray) -> xr.DataArray:
-    """Disk map `field` less `reference`, on the reference's azimuths and stations (linear, periodic in azimuth)."""
+    """Disk map `field` less `reference`, on the azimuths and stations of the reference (linear)."""
     psi, station = field[field.dims[0]].values, field[field.dims[1]].values
     at_psi, at_station = reference[reference.dims[0]].values, reference[reference.dims[1]].values
     values = _periodic(at_psi, psi, field.values)
@@ -87,7 +89,9 @@ def harmonics(field: xr.DataArray) -> tuple[float, float, float]:
     return float(mean), float(f_1c), float(f_1s)
 
 
-def draw(axes: Axes, field: xr.DataArray, limits: tuple[float, float], cmap: str, n_levels: int = 25) -> QuadContourSet:
+def draw(
+    axes: Axes, field: xr.DataArray, limits: tuple[float, float], cmap: str, n_levels: int = 25
+) -> QuadContourSet:
     """One map (azimuth, station) as filled contours on the disk, nose to the left."""
     psi, station = field[field.dims[0]].values, field[field.dims[1]].values
     fine = np.linspace(0, TURN, REFINE * psi.size + 1)
@@ -155,7 +159,7 @@ def rows_of_maps(
 
 
 def chosen_revolutions(run: xr.Dataset, revolutions: Sequence[float] | None, most: int = 3) -> list[float]:
-    """Revolutions to draw: the given ones, else those of the wake snapshots, else evenly spread; whole ones."""
+    """Revolutions to draw: the given ones, else those of the wake snapshots, else evenly spread."""
     flown = revolutions_flown(run)
     last = int(np.floor(flown + 1e-3))
     if last < 1:
@@ -166,7 +170,11 @@ def chosen_revolutions(run: xr.Dataset, revolutions: Sequence[float] | None, mos
     whole = sorted({round(float(mark)) for mark in marks if 2 <= round(float(mark)) <= last})
     if not whole:
         whole = sorted({round(n) for n in np.linspace(1, last, most + 1)} - {1})
-    pick = np.unique(np.round(np.linspace(0, len(whole) - 1, min(most, len(whole)))).astype(int)) if whole else []
+    pick = (
+        np.unique(np.round(np.linspace(0, len(whole) - 1, min(most, len(whole)))).astype(int))
+        if whole
+        else []
+    )
     return [float(whole[k]) for k in pick]
 
 

@@ -14,8 +14,9 @@ if TYPE_CHECKING:
     import xarray as xr
 
 CAPTION = (
-    "Induced inflow v_i/(ΩR), positive down through the disk, in the revolution that ends at the number given, and "
-    "its change from the first revolution, which is flown at trim. Nose left, advancing side at the top."
+    "Induced inflow v_i/(ΩR), positive down through the disk, in the revolution that ends at the number "
+    "given, and its change from the first revolution, which is flown at trim. Nose left, advancing side "
+    "at the top."
 )
 
 

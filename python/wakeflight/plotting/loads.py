@@ -13,8 +13,9 @@ if TYPE_CHECKING:
     from .histories import Runs
 
 CAPTION = (
-    "All loads on the airframe except gravity, in body axes at the fixed body origin: rotor hub, fuselage, tail "
-    "surfaces, tail rotor. Z is positive down, so lift is negative Z; M is positive nose up, L right side down."
+    "All loads on the airframe except gravity, in body axes at the fixed body origin: rotor hub, "
+    "fuselage, tail surfaces, tail rotor. Z is positive down, so lift is negative Z; M is positive nose "
+    "up, L right side down."
 )
 PANELS = (
     Panel("force_x", "X [kN]", 1e-3, span=1.0),

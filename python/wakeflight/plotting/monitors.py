@@ -12,7 +12,10 @@ from .style import styled
 if TYPE_CHECKING:
     from .histories import Runs
 
-CAPTION = "Power, thrust coefficient and numerical monitors of the run (largest step of a wake node, odd-even content of the wake)."
+CAPTION = (
+    "Power, thrust coefficient and numerical monitors of the run (largest step of a wake node, odd-even "
+    "content of the wake)."
+)
 PANELS = (
     Panel("power", "power [kW]", 1e-3, span=50.0),
     Panel("ct", "$C_T$ [$10^{-3}$]", 1e3, span=0.5),

@@ -13,8 +13,8 @@ if TYPE_CHECKING:
     from .histories import Runs
 
 CAPTION = (
-    "Main rotor loads at the hub centre in hub axes (x aft, y right, z up along the shaft), blade inertia and weight "
-    "included. The moment about z is minus the shaft torque."
+    "Main rotor loads at the hub centre in hub axes (x aft, y right, z up along the shaft), blade inertia"
+    " and weight included. The moment about z is minus the shaft torque."
 )
 PANELS = (
     Panel("hub_force", "force x_h, aft [kN]", 1e-3, "x", span=1.0),

@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     import xarray as xr
 
 CAPTION = (
-    "Bound circulation, section lift coefficient and $c_l M^2$ (proportional to lift per span) in the revolution that "
-    "ends at the number given; the first is flown at trim."
+    "Bound circulation, section lift coefficient and $c_l M^2$ (proportional to lift per span) in the "
+    "revolution that ends at the number given; the first is flown at trim."
 )
 ROWS = (
     ("circulation", "circulation", "Γ [m²/s]"),
@@ -34,6 +34,9 @@ def figure(run: xr.Dataset, revolutions: Sequence[float] | None = None) -> Figur
         [title for _, title, _ in ROWS],
         ["revolution 1 (trim)", *(f"revolution {n:g}" for n in when[1:])],
         [label for _, _, label in ROWS],
-        [name == "cl" and min(float(field.min()) for field in row) < -0.3 for (name, _, _), row in zip(ROWS, rows)],
+        [
+            name == "cl" and min(float(field.min()) for field in row) < -0.3
+            for (name, _, _), row in zip(ROWS, rows, strict=True)
+        ],
         "Section loading over the disk",
     )

@@ -16,8 +16,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 CAPTION = (
-    "Tip vortices in hub axes, in rotor radii: side view (nose left), from above (nose left, advancing side at the "
-    "top) and from behind. The rotor's plane is the grey line or circle."
+    "Tip vortices in hub axes, in rotor radii: side view (nose left), from above (nose left, advancing "
+    "side at the top) and from behind. The rotor's plane is the grey line or circle."
 )
 # (title, horizontal component, vertical component, labels)
 VIEWS = (
@@ -29,7 +29,7 @@ VIEWS = (
 
 @styled
 def figure(run: xr.Dataset, snapshots: Sequence[int] | None = None, all_blades: bool = False) -> Figure:
-    """Side, top and rear view of the first blade's tip vortex (or of all), one row per snapshot, one scale for all."""
+    """Side, top and rear view of the first blade's tip vortex or of all, one row per snapshot, one scale."""
     chosen = list(range(run.sizes["snapshot"])) if snapshots is None else list(snapshots)
     if snapshots is None and len(chosen) > 4:
         chosen = sorted({round(k) for k in np.linspace(0, chosen[-1], 4)})
