@@ -1,0 +1,199 @@
+"""Maps over the rotor disk: binning of one revolution, and the drawing with the nose to the left.
+
+x_h (aft) is drawn to the right and y_h (right) upward: nose left, azimuth counter-clockwise from the
+right-hand side, advancing side at the top.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+
+from . import style
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.axes import Axes
+    from matplotlib.colorbar import Colorbar
+    from matplotlib.contour import QuadContourSet
+
+TURN = 2 * np.pi
+# azimuth refinement of the drawing only, so that the disk is round
+REFINE = 4
+
+
+def revolutions_flown(run: xr.Dataset) -> float:
+    """Rotor revolutions from the start to the last recorded time."""
+    return float(run.time[-1]) * float(run.attrs["omega"]) / TURN
+
+
+def revolution_map(run: xr.Dataset, name: str, revolution: float) -> xr.DataArray:
+    """A (time, blade, station) variable over the disk (psi, station), of the turn ending at `revolution`.
+
+    Every blade passes every azimuth once in it: the passages through one azimuth are fitted by a line in time
+    and taken at the middle of the revolution, so the map belongs to one instant and has no seam, even while
+    the flight changes. The azimuth step is that of the record.
+    """
+    import xarray as xr
+
+    flown = run.time.values * float(run.attrs["omega"]) / TURN
+    if not 1 - 1e-3 <= revolution <= flown[-1] + 1e-3:
+        raise ValueError(f"revolution {revolution:g}: a map needs 1 to {flown[-1]:.2f}")
+    step = float(np.median(np.diff(flown)))
+    inside = (flown > revolution - 1 + step / 2) & (flown < revolution + step / 2)
+    psi = run.azimuth.values[inside].ravel() % TURN
+    values = run[name].values[inside].reshape(psi.size, -1)
+    n_bins = max(round(1 / step), 1)
+    first = float(psi[0] % (TURN / n_bins))
+    bins = np.round((psi - first) / TURN * n_bins).astype(int) % n_bins
+    when = np.repeat(flown[inside] - (revolution - 0.5), run.sizes["blade"])
+    mean = _bin_fits(bins, n_bins, when, values)
+    filled = np.flatnonzero(np.bincount(bins, minlength=n_bins))
+    grid = first + TURN / n_bins * np.arange(n_bins)
+    mean = _periodic(grid, grid[filled], mean[filled])
+    attributes = {**run[name].attrs, "revolution": float(revolution)}
+    return xr.DataArray(
+        mean, {"psi": grid, "station": run.station.values}, ("psi", "station"), name, attributes
+    )
+
+
+def difference(field: xr.DataArray, reference: xr.DataArray) -> xr.DataArray:
+    """Disk map `field` less `reference`, on the azimuths and stations of the reference (linear)."""
+    psi, station = field[field.dims[0]].values, field[field.dims[1]].values
+    at_psi, at_station = reference[reference.dims[0]].values, reference[reference.dims[1]].values
+    values = _periodic(at_psi, psi, field.values)
+    if station.shape != at_station.shape or not np.allclose(station, at_station):
+        values = np.stack([np.interp(at_station, station, row) for row in values])
+    return reference.copy(data=values - reference.values)
+
+
+def harmonics(field: xr.DataArray) -> tuple[float, float, float]:
+    """Mean and first harmonics of a disk map, area-weighted: field ~ f0 + (f1c cos psi + f1s sin psi) r/R.
+
+    f0 is the area mean; f1c = int(f r cos psi dA) / int(r^2 cos^2 psi dA), f1s likewise with the sine.
+    Ring widths from the mid-points between stations, closed by the symmetric end rings (at most to r/R = 1).
+    """
+    psi, station = field[field.dims[0]].values, field[field.dims[1]].values
+    middle = (station[1:] + station[:-1]) / 2
+    edges = np.concatenate([[2 * station[0] - middle[0]], middle, [min(2 * station[-1] - middle[-1], 1.0)]])
+    area = np.diff(edges) * station
+    values = field.values
+    cos, sin = np.cos(psi)[:, None], np.sin(psi)[:, None]
+    mean = (values * area).sum() / (area.sum() * psi.size)
+    f_1c = (values * station * cos * area).sum() / ((station * cos) ** 2 * area).sum()
+    f_1s = (values * station * sin * area).sum() / ((station * sin) ** 2 * area).sum()
+    return float(mean), float(f_1c), float(f_1s)
+
+
+def draw(
+    axes: Axes, field: xr.DataArray, limits: tuple[float, float], cmap: str, n_levels: int = 25
+) -> QuadContourSet:
+    """One map (azimuth, station) as filled contours on the disk, nose to the left."""
+    psi, station = field[field.dims[0]].values, field[field.dims[1]].values
+    fine = np.linspace(0, TURN, REFINE * psi.size + 1)
+    values = _periodic(fine, psi, field.values)
+    x, y = station * np.cos(fine)[:, None], station * np.sin(fine)[:, None]
+    filled = axes.contourf(x, y, values, np.linspace(*limits, n_levels), cmap=cmap)
+    around = np.linspace(0, TURN, 181)
+    axes.plot(np.cos(around), np.sin(around), color=style.GREY, linewidth=0.7)
+    axes.plot(station[0] * np.cos(around), station[0] * np.sin(around), color=style.GREY, linewidth=0.4)
+    axes.set_aspect("equal")
+    axes.set(xlim=(-1.08, 1.08), ylim=(-1.2, 1.2))
+    axes.set_axis_off()
+    return filled
+
+
+def tidy(bar: Colorbar, label: str, limits: tuple[float, float]) -> None:
+    """Colour bar with its label and few round ticks."""
+    bar.set_label(label)
+    bar.outline.set_linewidth(0.5)
+    bar.set_ticks([tick for tick in MaxNLocator(4).tick_values(*limits) if limits[0] <= tick <= limits[1]])
+
+
+def mark_directions(axes: Axes) -> None:
+    """Say where the nose is and how the azimuth counts."""
+    place = {"fontsize": 6.5, "color": style.GREY}
+    axes.text(-1.07, 0, "nose 180°", rotation=90, ha="right", va="center", **place)
+    axes.text(1.07, 0, "tail ψ = 0", rotation=90, ha="left", va="center", **place)
+    axes.text(0, 1.05, "advancing 90°", ha="center", va="bottom", **place)
+    axes.text(0, -1.05, "retreating 270°", ha="center", va="top", **place)
+
+
+def rows_of_maps(
+    rows: Sequence[Sequence[xr.DataArray]],
+    row_titles: Sequence[str],
+    column_titles: Sequence[str],
+    labels: Sequence[str],
+    symmetric: Sequence[bool],
+    title: str,
+) -> Figure:
+    """Maps in rows, one colour scale per row; a `symmetric` row is drawn about zero in diverging colours.
+
+    Rows that share a label share their colour scale too.
+    """
+    columns = max(len(row) for row in rows)
+    figure = style.blank(2.15 * len(rows) + 0.5, width=max(2.15 * columns + 0.9, 5.2))
+    grid = figure.subplots(len(rows), columns, squeeze=False)
+    for i, row in enumerate(rows):
+        together = [field.values for k, other in enumerate(rows) if labels[k] == labels[i] for field in other]
+        limits = style.levels(*together, symmetric=symmetric[i])
+        cmap = style.DIVERGING if symmetric[i] else style.SEQUENTIAL
+        for j in range(columns):
+            if j >= len(row):
+                grid[i, j].set_visible(False)
+                continue
+            filled = draw(grid[i, j], row[j], limits, cmap)
+            mark_directions(grid[i, j])
+            if i == 0:
+                grid[i, j].set_title(column_titles[j])
+        if row_titles[i]:
+            grid[i, 0].text(-1.3, 0, row_titles[i], rotation=90, ha="right", va="center", fontsize=9)
+        bar = figure.colorbar(filled, ax=grid[i, : len(row)].tolist(), shrink=0.85, pad=0.01)
+        tidy(bar, labels[i], limits)
+    figure.suptitle(title, fontsize=10, x=0.01, ha="left")
+    return figure
+
+
+def chosen_revolutions(run: xr.Dataset, revolutions: Sequence[float] | None, most: int = 3) -> list[float]:
+    """Revolutions to draw: the given ones, else those of the wake snapshots, else evenly spread."""
+    flown = revolutions_flown(run)
+    last = int(np.floor(flown + 1e-3))
+    if last < 1:
+        raise ValueError(f"{flown:.2f} revolutions flown: a disk map needs one at least")
+    if revolutions is not None:
+        return list(revolutions)
+    marks = run["snapshot_revolution"].values if "snapshot_revolution" in run else np.array([])
+    whole = sorted({round(float(mark)) for mark in marks if 2 <= round(float(mark)) <= last})
+    if not whole:
+        whole = sorted({round(n) for n in np.linspace(1, last, most + 1)} - {1})
+    pick = (
+        np.unique(np.round(np.linspace(0, len(whole) - 1, min(most, len(whole)))).astype(int))
+        if whole
+        else []
+    )
+    return [float(whole[k]) for k in pick]
+
+
+def _periodic(at: np.ndarray, psi: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Linear interpolation in azimuth, periodic, of values (psi, station)."""
+    return np.stack([np.interp(at, psi, column, period=TURN) for column in values.T], axis=1)
+
+
+def _bin_fits(bins: np.ndarray, n_bins: int, when: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Least-squares lines in time through the samples of each bin, taken at `when` = 0; (n_bins, station)."""
+    count = np.maximum(np.bincount(bins, minlength=n_bins), 1)
+    mean_when = np.bincount(bins, when, minlength=n_bins) / count
+    late = when - mean_when[bins]
+    spread = np.bincount(bins, late**2, minlength=n_bins)
+    # one blade passes each azimuth once: no line through one point
+    line = spread > 1e-9
+    fits = []
+    for column in values.T:
+        mean = np.bincount(bins, column, minlength=n_bins) / count
+        slope = np.bincount(bins, late * column, minlength=n_bins) / np.where(line, spread, 1.0)
+        fits.append(mean - np.where(line, slope * mean_when, 0.0))
+    return np.stack(fits, axis=1)

@@ -1,0 +1,28 @@
+"""Tilt of the rotor disk over time."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from matplotlib.figure import Figure
+
+from .histories import DEG, Panel, histories
+from .style import styled
+
+if TYPE_CHECKING:
+    from .histories import Runs
+
+CAPTION = (
+    "First flap mode by the multiblade transform, β = β₀ + β₁c cos ψ + β₁s sin ψ: β₁c > 0 is disk "
+    "forward-down, β₁s > 0 is advancing (right) side up."
+)
+PANELS = (
+    Panel("beta_1c", "β₁c [deg]\n(+ forward-down)", DEG, span=1.0),
+    Panel("beta_1s", "β₁s [deg]\n(+ advancing side up)", DEG, span=1.0),
+)
+
+
+@styled
+def figure(runs: Runs) -> Figure:
+    """Longitudinal and lateral flapping of one run or several."""
+    return histories(runs, PANELS, "Flapping of the first flap mode", height=2.2)

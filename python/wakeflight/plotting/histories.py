@@ -1,0 +1,95 @@
+"""Time histories in panels: one run, or several runs of one manoeuvre over each other."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from . import style
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    Runs = xr.Dataset | Mapping[str, xr.Dataset]
+
+DEG = float(np.rad2deg(1.0))
+
+
+@dataclass(frozen=True)
+class Panel:
+    """One panel: a variable (or the xyz component of one), its label with unit, and the factor to that unit.
+
+    `span` is the least extent of the vertical axis, in the unit drawn.
+    """
+
+    name: str
+    label: str
+    factor: float = 1.0
+    component: str | None = None
+    span: float = 0.0
+
+    def values(self, run: xr.Dataset) -> np.ndarray:
+        """The history (time,) in the unit drawn."""
+        variable = run[self.name]
+        if self.component is not None:
+            variable = variable.sel(xyz=self.component)
+        return self.factor * variable.values
+
+
+def as_mapping(runs: Runs) -> Mapping[str, xr.Dataset]:
+    """Several runs by name; a single dataset becomes one run without a name."""
+    return runs if isinstance(runs, Mapping) and not hasattr(runs, "data_vars") else {"": runs}
+
+
+def seconds_per_revolution(run: xr.Dataset) -> float:
+    """Duration of one rotor revolution [s]."""
+    return 2 * np.pi / float(run.attrs["omega"])
+
+
+def histories(
+    runs: Runs, panels: Sequence[Panel], title: str, columns: int = 2, height: float = 1.45
+) -> Figure:
+    """Panels over time, in columns filled downwards; a second scale on top counts rotor revolutions.
+
+    Several runs are drawn over each other with a legend. A run that failed ends with a cross.
+    """
+    runs = as_mapping(runs)
+    rows = -(-len(panels) // columns)
+    figure = style.blank(height * rows + 0.75)
+    grid = figure.subplots(rows, columns, sharex=True, squeeze=False)
+    for k, panel in enumerate(panels):
+        axes = grid[k % rows, k // rows]
+        for (name, run), color, line in zip(runs.items(), style.COLORS, style.LINES, strict=False):
+            values = panel.values(run)
+            axes.plot(run.time.values, values, color=color, linestyle=line, label=name)
+            if not run.attrs.get("finished", 1):
+                axes.plot(run.time.values[-1], values[-1], "x", color=color)
+        axes.set_ylabel(panel.label)
+        axes.margins(x=0)
+        style.least_span(axes, panel.span)
+    for k in range(len(panels), rows * columns):
+        grid[k % rows, k // rows].set_visible(False)
+    _time_axes(grid, next(iter(runs.values())), len(panels))
+    if len(runs) > 1:
+        handles, labels = grid[0, 0].get_legend_handles_labels()
+        figure.legend(handles, labels, loc="outside lower center", ncols=len(runs))
+    figure.suptitle(title, fontsize=10, x=0.01, ha="left")
+    figure.align_ylabels()
+    return figure
+
+
+def _time_axes(grid: np.ndarray, run: xr.Dataset, n_panels: int) -> None:
+    """Seconds below, revolutions above each column."""
+    rows, columns = grid.shape
+    period = seconds_per_revolution(run)
+    for column in range(columns):
+        last = min(rows, n_panels - column * rows) - 1
+        grid[last, column].set_xlabel("time [s]")
+        grid[last, column].tick_params(labelbottom=True)
+        top = grid[0, column].secondary_xaxis("top", functions=(lambda t: t / period, lambda n: n * period))
+        top.set_xlabel("rotor revolutions")
+        top.spines["top"].set_visible(True)

@@ -1,0 +1,40 @@
+"""What tells whether the wake and the power behave: monitors over time, as far as the run has them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from matplotlib.figure import Figure
+
+from .histories import Panel, as_mapping, histories
+from .style import styled
+
+if TYPE_CHECKING:
+    from .histories import Runs
+
+CAPTION = (
+    "Power, thrust coefficient and numerical monitors of the run (largest step of a wake node, odd-even "
+    "content of the wake)."
+)
+PANELS = (
+    Panel("power", "power [kW]", 1e-3, span=50.0),
+    Panel("ct", "$C_T$ [$10^{-3}$]", 1e3, span=0.5),
+    Panel("inflow_mean", "mean inflow λ₀ [–]", span=2e-3),
+    Panel("odd_even", "odd–even [R]", span=1e-6),
+    Panel("max_displacement", "node step [m]"),
+    Panel("energy", "energy [kJ]", 1e-3),
+)
+
+
+def present(runs: Runs) -> tuple[Panel, ...]:
+    """The panels whose variable every run has."""
+    return tuple(panel for panel in PANELS if all(panel.name in run for run in as_mapping(runs).values()))
+
+
+@styled
+def figure(runs: Runs) -> Figure:
+    """Monitors present in one run or in all of several."""
+    panels = present(runs)
+    if not panels:
+        raise ValueError("no monitor is in the dataset")
+    return histories(runs, panels, "Power, thrust and monitors", columns=min(2, len(panels)))

@@ -1,0 +1,32 @@
+"""The main rotor's hub loads over time."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from matplotlib.figure import Figure
+
+from .histories import Panel, histories
+from .style import styled
+
+if TYPE_CHECKING:
+    from .histories import Runs
+
+CAPTION = (
+    "Main rotor loads at the hub centre in hub axes (x aft, y right, z up along the shaft), blade inertia"
+    " and weight included. The moment about z is minus the shaft torque."
+)
+PANELS = (
+    Panel("hub_force", "force x_h, aft [kN]", 1e-3, "x", span=1.0),
+    Panel("hub_force", "force y_h, right [kN]", 1e-3, "y", span=1.0),
+    Panel("hub_force", "force z_h, up [kN]", 1e-3, "z", span=5.0),
+    Panel("hub_moment", "moment x_h [kN m]", 1e-3, "x", span=1.0),
+    Panel("hub_moment", "moment y_h [kN m]", 1e-3, "y", span=1.0),
+    Panel("hub_moment", "moment z_h [kN m]", 1e-3, "z", span=1.0),
+)
+
+
+@styled
+def figure(runs: Runs) -> Figure:
+    """Hub force and moment of one run or several."""
+    return histories(runs, PANELS, "Main rotor loads at the hub, hub axes")

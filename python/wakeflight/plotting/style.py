@@ -1,0 +1,98 @@
+"""One look for all figures: fonts, colours that colour-blind readers can tell apart, restrained axes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import wraps
+from pathlib import Path
+from typing import TYPE_CHECKING, ParamSpec, TypeVar
+
+import matplotlib
+import numpy as np
+from matplotlib.figure import Figure
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+Arguments = ParamSpec("Arguments")
+Result = TypeVar("Result")
+
+# Okabe and Ito's palette, yellow left out: it vanishes on white
+COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000")
+LINES = ("-", "--", "-.", ":", "-", "--", "-.")
+# sequential map for quantities, diverging one for changes and for quantities that change sign
+SEQUENTIAL = "cividis"
+DIVERGING = "RdBu_r"
+GREY = "#777777"
+
+WIDTH = 7.2
+INCH = 0.0254
+
+RC = {
+    "font.family": "DejaVu Sans",
+    "font.size": 9,
+    "axes.titlesize": 9,
+    "axes.labelsize": 9,
+    "xtick.labelsize": 8,
+    "ytick.labelsize": 8,
+    "legend.fontsize": 8,
+    "legend.frameon": False,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.linewidth": 0.7,
+    "axes.grid": True,
+    "grid.color": "#DDDDDD",
+    "grid.linewidth": 0.5,
+    "axes.axisbelow": True,
+    "lines.linewidth": 1.3,
+    "axes.formatter.useoffset": False,
+    "figure.dpi": 100,
+    "savefig.dpi": 130,
+    "mathtext.default": "regular",
+}
+
+
+def styled(function: Callable[Arguments, Result]) -> Callable[Arguments, Result]:
+    """A figure function that draws in this style without touching the reader's own settings."""
+
+    @wraps(function)
+    def drawn(*args: Arguments.args, **kwargs: Arguments.kwargs) -> Result:
+        with matplotlib.rc_context(RC):
+            return function(*args, **kwargs)
+
+    return drawn
+
+
+def blank(height: float, width: float = WIDTH) -> Figure:
+    """Empty figure of a size in inches; no window system and no global state behind it."""
+    return Figure(figsize=(width, height), layout="constrained")
+
+
+def save(figure: Figure, path: str | Path) -> Path:
+    """Write a figure to the file type its name asks for; the same figure gives the same bytes."""
+    path = Path(path)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    no_date = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}
+    with matplotlib.rc_context({**RC, "svg.hashsalt": "wakeflight"}):
+        figure.savefig(path, metadata=no_date.get(path.suffix))
+    return path
+
+
+def least_span(axes: Axes, span: float) -> None:
+    """Widen the vertical axis to at least `span`: what hardly changes should look as if it hardly changes."""
+    low, high = axes.get_ylim()
+    if high - low < span:
+        middle = (low + high) / 2
+        axes.set_ylim(middle - span / 2, middle + span / 2)
+
+
+def levels(*fields: np.ndarray, symmetric: bool = False) -> tuple[float, float]:
+    """Colour range common to several maps; about zero if `symmetric`."""
+    low = min(float(np.min(field)) for field in fields)
+    high = max(float(np.max(field)) for field in fields)
+    if symmetric:
+        high = (1 + 1e-6) * max(abs(low), abs(high), 1e-12)
+        return -high, high
+    # a hair wider than the data: the extremes themselves must be filled too
+    margin = max(1e-6 * (high - low), 1e-12)
+    return low - margin, high + margin

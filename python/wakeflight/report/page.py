@@ -1,0 +1,111 @@
+"""One self-contained HTML page of a run or of several: summary, figures, configuration; nothing fetched."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ..plotting import COMPARISONS, FIGURES, Plot
+from ..plotting.style import save
+from .summary import Row, configuration, counters, summary, trim_table, warnings
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """A figure in the page: its caption and its PNG as base64 text."""
+
+    name: str
+    caption: str
+    png: str
+
+
+def write(
+    runs: xr.Dataset | Mapping[str, xr.Dataset],
+    out_dir: str | Path,
+    trim: xr.Dataset | None = None,
+) -> Path:
+    """Write the figures (PNG) and `report.html` of one run, or of several by name, into `out_dir`.
+
+    With several runs, histories are drawn over each other and maps side by side. `trim` adds the table of the
+    trim's sticks, attitude and residuals. Returns the path of the page.
+    """
+    from jinja2 import Environment, PackageLoader, StrictUndefined
+
+    out_dir = Path(out_dir)
+    out_dir.mkdir(parents=True, exist_ok=True)
+    several = isinstance(runs, Mapping) and not hasattr(runs, "data_vars")
+    named = dict(runs) if several else {str(runs.attrs.get("inflow_model", "run")): runs}
+    first = next(iter(named.values()))
+    environment = Environment(
+        loader=PackageLoader("wakeflight.report", "templates"),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    page = environment.get_template("report.html").render(
+        title=_title(first, several),
+        names=list(named),
+        several=several,
+        failures={
+            name: run.attrs["failure"] for name, run in named.items() if not run.attrs.get("finished", 1)
+        },
+        warnings=_common(warnings, named),
+        tables=_tables(named, trim),
+        figures=_figures(COMPARISONS if several else FIGURES, named if several else first, out_dir),
+        configurations={name: configuration(run) for name, run in named.items()},
+        version=first.attrs.get("program_version", ""),
+    )
+    path = out_dir / "report.html"
+    path.write_text(page, encoding="utf-8")
+    return path
+
+
+def _title(run: xr.Dataset, several: bool) -> str:
+    flight = str(run.attrs.get("maneuver", "flight")).replace("-", " ")
+    model = "inflow models compared" if several else f"{run.attrs.get('inflow_model', '')} inflow"
+    return f"{run.attrs.get('aircraft', '')}: {flight}, {model}"
+
+
+def _tables(
+    named: Mapping[str, xr.Dataset], trim: xr.Dataset | None
+) -> dict[str, list[tuple[str, list[str]]]]:
+    """Tables of the page: title -> rows of a label and one cell per run."""
+    tables = {"Summary": _join(summary, named), "Work done": _join(counters, named)}
+    if trim is not None:
+        tables["Trim"] = [(row.label, [row.value]) for row in trim_table(trim)]
+    return tables
+
+
+def _join(rows_of: Callable[..., list[Row]], named: Mapping[str, xr.Dataset]) -> list[tuple[str, list[str]]]:
+    """Rows of all runs side by side, in the order they first appear; a dash where a run has none."""
+    columns: list[list[Row]] = [rows_of(run) for run in named.values()]
+    labels = list(dict.fromkeys(row.label for column in columns for row in column))
+    cells = [{row.label: row.value for row in column} for column in columns]
+    return [(label, [cell.get(label, "–") for cell in cells]) for label in labels]
+
+
+def _common(texts_of: Callable[..., list[str]], named: Mapping[str, xr.Dataset]) -> list[str]:
+    """Texts of all runs, each once, with the runs it belongs to where that is not all of them."""
+    found: dict[str, list[str]] = {}
+    for name, run in named.items():
+        for text in texts_of(run):
+            found.setdefault(text, []).append(name)
+    return [text if len(of) == len(named) else f"{text} ({', '.join(of)})" for text, of in found.items()]
+
+
+def _figures(plots: tuple[Plot, ...], data: object, out_dir: Path) -> list[Drawn]:
+    """Draw what can be drawn from the data, write each as PNG and keep it for the page."""
+    drawn = []
+    for plot in plots:
+        if not plot.drawable(data):
+            continue
+        path = save(plot.figure(data), out_dir / f"{plot.name}.png")
+        drawn.append(Drawn(plot.name, plot.caption, base64.b64encode(path.read_bytes()).decode("ascii")))
+    return drawn

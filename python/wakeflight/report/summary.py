@@ -1,0 +1,122 @@
+"""What a reader wants to know of a run first, as rows of text: flight, trim, cost, counters, warnings."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..plotting.disk import revolutions_flown
+from ..schema import ATTRIBUTES
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+COUNTERS = (
+    "residual_evaluations",
+    "jacobians",
+    "relaxation_iterations",
+    "unconverged_revolutions",
+    "segment_evaluations",
+)
+NAMES = {attribute.name: attribute.long_name for attribute in ATTRIBUTES}
+
+
+@dataclass(frozen=True)
+class Row:
+    """A line of a table: label with unit, and value as text."""
+
+    label: str
+    value: str
+
+
+def summary(run: xr.Dataset) -> list[Row]:
+    """Flight, trim and wall clock of one run."""
+    attrs = run.attrs
+    rows = [
+        Row(NAMES[name], _text(attrs[name]))
+        for name in ("aircraft", "maneuver", "condition")
+        if name in attrs
+    ]
+    rows.append(Row(NAMES["inflow_model"], _text(attrs.get("inflow_model", "–"))))
+    rows.append(Row("flown", f"{float(run.time[-1]):.2f} s, {revolutions_flown(run):.2f} revolutions"))
+    rows.append(Row("finished", "yes" if attrs.get("finished", 1) else "no"))
+    for name, label, factor, digits in (
+        ("ct", "thrust coefficient C_T at trim", 1.0, 5),
+        ("ct_sigma", "blade loading C_T/σ at trim", 1.0, 4),
+        ("mu", "advance ratio µ at trim", 1.0, 4),
+        ("power", "power at trim [kW]", 1e-3, 0),
+    ):
+        if name in attrs:
+            rows.append(Row(label, f"{factor * float(attrs[name]):.{digits}f}"))
+    for stick in ("collective", "longitudinal", "lateral", "pedal"):
+        rows.append(Row(f"{stick} at trim [in]", f"{float(run[stick][0]):.2f}"))
+    for angle in ("pitch", "roll"):
+        rows.append(Row(f"{angle} at trim [deg]", f"{np.rad2deg(float(run[angle][0])):.2f}"))
+    for attribute in ATTRIBUTES:
+        if attribute.name.startswith("seconds_") and attribute.name in attrs:
+            rows.append(Row(attribute.long_name, f"{float(attrs[attribute.name]):.2f}"))
+    return rows
+
+
+def counters(run: xr.Dataset) -> list[Row]:
+    """What the run did, counted: independent of the machine it ran on."""
+    return [Row(NAMES[name], f"{int(run.attrs[name]):,}") for name in COUNTERS if name in run.attrs]
+
+
+def warnings(run: xr.Dataset) -> list[str]:
+    """Warnings of one run, one text each."""
+    kept = run.attrs.get("warnings", "")
+    if isinstance(kept, str) and kept.startswith("["):
+        kept = json.loads(kept)
+    elif isinstance(kept, str):
+        kept = [kept] if kept not in ("", "none") else []
+    return [str(text) for text in kept]
+
+
+def configuration(run: xr.Dataset) -> str:
+    """The whole configuration as indented JSON text; long tables of numbers on one line each."""
+    text = str(run.attrs.get("configuration", "{}"))
+    try:
+        return _indented(json.loads(text))
+    except json.JSONDecodeError:
+        return text
+
+
+def trim_table(trim: xr.Dataset) -> list[Row]:
+    """Every scalar of the trim and its residuals, angles in degrees as well."""
+    rows = []
+    for name, variable in trim.data_vars.items():
+        label = f"{variable.attrs['long_name']} [{variable.attrs['units']}]"
+        if variable.ndim == 0:
+            value = float(variable)
+            degrees = (
+                f" ({np.rad2deg(value):.2f}°)"
+                if variable.attrs["units"] == "rad" and "resid" not in name
+                else ""
+            )
+            rows.append(Row(label, f"{value:.6g}{degrees}"))
+        elif variable.dims == ("xyz",):
+            rows.append(Row(label, ", ".join(f"{value:.3g}" for value in variable.values)))
+    return rows
+
+
+def _text(value: object) -> str:
+    """An attribute as a reader wants it: a condition kept as JSON becomes `name value, name value`."""
+    text = str(value)
+    if text.startswith("{"):
+        return ", ".join(
+            f"{key.replace('_', ' ')} {item}" for key, item in json.loads(text).items() if item is not None
+        )
+    return text
+
+
+def _indented(value: object, depth: int = 0) -> str:
+    """JSON with mappings indented and lists on one line."""
+    if not isinstance(value, dict) or not value:
+        return json.dumps(value, ensure_ascii=False)
+    inner = "  " * (depth + 1)
+    rows = (f"{inner}{json.dumps(key)}: {_indented(item, depth + 1)}" for key, item in value.items())
+    return "{\n" + ",\n".join(rows) + "\n" + "  " * depth + "}"

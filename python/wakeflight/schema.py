@@ -1,0 +1,224 @@
+"""The one schema of every result: names, dimensions, units and meaning of what a run and a trim leave."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Variable:
+    """One variable of a dataset: its dimensions, unit and meaning; `optional` ones may be absent."""
+
+    name: str
+    dims: tuple[str, ...]
+    units: str
+    long_name: str
+    optional: bool = False
+
+
+@dataclass(frozen=True)
+class Attribute:
+    """One attribute of a dataset: its meaning; `required` ones must be given by whoever assembles it."""
+
+    name: str
+    long_name: str
+    required: bool = False
+
+
+def _rows(dims: tuple[str, ...], *rows: tuple[str, str, str], optional: bool = False) -> list[Variable]:
+    """Variables that share their dimensions, from rows of (name, units, long_name)."""
+    return [Variable(name, dims, units, long_name, optional) for name, units, long_name in rows]
+
+
+TIME = ("time",)
+BLADE = ("time", "blade")
+STATION = ("time", "blade", "station")
+DISK = ("azimuth", "station")
+
+COORDINATES: dict[str, Variable] = {
+    variable.name: variable
+    for variable in (
+        Variable("time", ("time",), "s", "time from the start of the flight"),
+        Variable("blade", ("blade",), "1", "blade number; blade 1 is at azimuth 0 when its azimuth is 0"),
+        Variable("station", ("station",), "1", "radial station r/R, from the hub centre"),
+        Variable("mode", ("mode",), "1", "blade mode in ascending order of frequency"),
+        Variable("snapshot", ("snapshot",), "1", "wake snapshot number"),
+        Variable("age", ("age",), "rad", "wake age: angle turned by the blade since release"),
+        Variable("xyz", ("xyz",), "1", "component"),
+        Variable("azimuth", ("azimuth",), "rad", "azimuth, 0 over the tail, in the direction of rotation"),
+        Variable(
+            "psi", ("psi",), "rad", "azimuth of a disk map in a run, where `azimuth` is that of the blades"
+        ),
+        Variable("harmonic", ("harmonic",), "1", "mean, then cosine and sine of each harmonic"),
+    )
+}
+
+RUN: tuple[Variable, ...] = (
+    *_rows(
+        TIME,
+        ("u", "m/s", "body velocity, forward"),
+        ("v", "m/s", "body velocity, right"),
+        ("w", "m/s", "body velocity, down"),
+        ("p", "rad/s", "roll rate, right side down positive"),
+        ("q", "rad/s", "pitch rate, nose up positive"),
+        ("r", "rad/s", "yaw rate, nose right positive"),
+        ("roll", "rad", "roll attitude (3-2-1), right side down positive"),
+        ("pitch", "rad", "pitch attitude (3-2-1), nose up positive"),
+        ("yaw", "rad", "heading (3-2-1), clockwise from north seen from above"),
+        ("north", "m", "position, north of the start"),
+        ("east", "m", "position, east of the start"),
+        ("down", "m", "position, below the start"),
+        ("collective", "in", "collective stick from its stop, up positive"),
+        ("longitudinal", "in", "longitudinal stick from its stop, as in the aircraft file"),
+        ("lateral", "in", "lateral stick from its stop, right positive"),
+        ("pedal", "in", "pedal from its stop, as in the aircraft file"),
+        ("force_x", "N", "force on the airframe except gravity, body x forward, at the body origin"),
+        ("force_y", "N", "force on the airframe except gravity, body y right, at the body origin"),
+        ("force_z", "N", "force on the airframe except gravity, body z down, at the body origin"),
+        ("moment_x", "N m", "moment on the airframe except gravity, roll right, at the body origin"),
+        ("moment_y", "N m", "moment on the airframe except gravity, pitch nose up, at the body origin"),
+        ("moment_z", "N m", "moment on the airframe except gravity, yaw nose right, at the body origin"),
+        ("beta_1c", "rad", "cosine of the first flap mode, multiblade transform; > 0 is disk forward-down"),
+        ("beta_1s", "rad", "sine of the first flap mode, multiblade transform; > 0 is advancing side up"),
+    ),
+    Variable(
+        "hub_force", ("time", "xyz"), "N", "main rotor's force on the hub, hub axes (x aft, y right, z up)"
+    ),
+    Variable("hub_moment", ("time", "xyz"), "N m", "main rotor's moment at the hub centre, hub axes"),
+    Variable(
+        "modal",
+        ("time", "blade", "mode"),
+        "1",
+        "modal coordinate, as a fraction of the mode's tip deflection",
+    ),
+    Variable("azimuth", BLADE, "rad", "blade azimuth, 0 over the tail, in the direction of rotation"),
+    *_rows(
+        STATION,
+        ("inflow", "1", "induced inflow v_i/(Omega R) along -z_h, positive down through the disk"),
+        ("circulation", "m2/s", "bound circulation, positive with upward lift"),
+        ("cl", "1", "section lift coefficient"),
+        ("cl_m2", "1", "section lift coefficient times Mach number squared"),
+        ("alpha", "rad", "section angle of attack"),
+        ("mach", "1", "section Mach number"),
+    ),
+    Variable(
+        "wake", ("snapshot", "blade", "age", "xyz"), "m", "tip vortex position, hub axes", optional=True
+    ),
+    Variable("snapshot_revolution", ("snapshot",), "1", "revolutions flown at the snapshot", optional=True),
+    Variable(
+        "wake_circulation",
+        ("snapshot", "blade", "age"),
+        "m2/s",
+        "tip vortex circulation at its nodes",
+        optional=True,
+    ),
+    *_rows(
+        TIME,
+        ("beta_0", "rad", "coning: mean of the first flap mode over the blades"),
+        ("power", "W", "engine power: main rotor, tail rotor and accessories"),
+        ("ct", "1", "aerodynamic thrust coefficient of the main rotor along z_h"),
+        ("inflow_mean", "1", "disk mean of the induced inflow v_i/(Omega R), positive down"),
+        ("stabilator", "rad", "stabilator incidence, nose up positive"),
+        ("odd_even", "1", "odd-even content of the wake along the age, share of R"),
+        ("max_displacement", "m", "largest displacement of a wake node in the step"),
+        ("energy", "J", "mechanical energy of airframe and blades"),
+        optional=True,
+    ),
+    *_rows(
+        ("psi", "station"),
+        (
+            "inflow_trim",
+            "1",
+            "induced inflow of the trim the flight starts from, v_i/(Omega R), positive down",
+        ),
+        (
+            "inflow_before",
+            "1",
+            "time-marching inflow before the convergence phase, v_i/(Omega R), positive down",
+        ),
+        ("inflow_start", "1", "inflow at the start of the flight, converged, v_i/(Omega R), positive down"),
+        optional=True,
+    ),
+)
+
+TRIM: tuple[Variable, ...] = (
+    *_rows(
+        (),
+        ("collective", "in", "collective stick from its stop, up positive"),
+        ("longitudinal", "in", "longitudinal stick from its stop, as in the aircraft file"),
+        ("lateral", "in", "lateral stick from its stop, right positive"),
+        ("pedal", "in", "pedal from its stop, as in the aircraft file"),
+        ("pitch", "rad", "pitch attitude, nose up positive"),
+        ("roll", "rad", "roll attitude, right side down positive"),
+        ("theta_0", "rad", "collective blade pitch at the root"),
+        ("theta_1c", "rad", "cosine of the blade pitch at the root"),
+        ("theta_1s", "rad", "sine of the blade pitch at the root"),
+        ("ct", "1", "aerodynamic thrust coefficient along z_h"),
+        ("ct_sigma", "1", "blade loading: thrust coefficient over solidity"),
+        ("mu", "1", "advance ratio"),
+        ("power", "W", "engine power: main rotor, tail rotor and accessories"),
+    ),
+    Variable("inflow", DISK, "1", "induced inflow v_i/(Omega R) along -z_h, positive down through the disk"),
+    Variable(
+        "modal", ("azimuth", "mode"), "1", "periodic modal coordinate, as a fraction of its tip deflection"
+    ),
+    Variable("residual_linear", ("xyz",), "m/s2", "linear acceleration left over, body axes"),
+    Variable("residual_angular", ("xyz",), "rad/s2", "angular acceleration left over, body axes"),
+    Variable("residual_blade", (), "rad", "largest blade harmonic left over, equivalent tip angle"),
+    *_rows(
+        (),
+        ("residual_inflow", "1", "remaining change of the inflow, RMS in Omega R"),
+        ("theta_tail", "rad", "tail rotor collective pitch"),
+        ("beta_0", "rad", "coning of the first flap mode"),
+        ("beta_1c", "rad", "cosine of the first flap mode; > 0 is disk forward-down"),
+        ("beta_1s", "rad", "sine of the first flap mode; > 0 is advancing side up"),
+        ("power_main", "W", "main rotor power"),
+        ("power_tail", "W", "tail rotor power"),
+        ("stabilator", "rad", "stabilator incidence, nose up positive"),
+        ("inflow_mean", "1", "disk mean of the induced inflow v_i/(Omega R), positive down"),
+        optional=True,
+    ),
+    *_rows(
+        ("xyz",), ("velocity_b", "m/s", "body velocity"), ("rates_b", "rad/s", "body rates"), optional=True
+    ),
+    Variable(
+        "modal_harmonics", ("mode", "harmonic"), "1", "harmonics of the modal coordinates", optional=True
+    ),
+    *_rows(
+        DISK,
+        ("circulation", "m2/s", "bound circulation, positive with upward lift"),
+        ("cl", "1", "section lift coefficient"),
+        ("cl_m2", "1", "section lift coefficient times Mach number squared"),
+        ("alpha", "rad", "section angle of attack"),
+        ("mach", "1", "section Mach number"),
+        optional=True,
+    ),
+)
+
+ATTRIBUTES: tuple[Attribute, ...] = (
+    Attribute("aircraft", "aircraft", required=True),
+    Attribute("inflow_model", "inflow model", required=True),
+    Attribute("radius", "rotor radius [m]", required=True),
+    Attribute("omega", "rotor speed [rad/s]", required=True),
+    Attribute("configuration", "the whole configuration, as JSON", required=True),
+    Attribute("maneuver", "manoeuvre"),
+    Attribute("condition", "flight condition"),
+    Attribute("program_version", "program version"),
+    Attribute("finished", "1 if the run came to its end, 0 if it failed"),
+    Attribute("failure", "where and why a failed run stopped"),
+    Attribute("ct", "thrust coefficient at trim"),
+    Attribute("ct_sigma", "blade loading at trim"),
+    Attribute("mu", "advance ratio at trim"),
+    Attribute("power", "power at trim [W]"),
+    Attribute("seconds_trim", "wall clock: trim [s]"),
+    Attribute("seconds_convergence", "wall clock: convergence phase [s]"),
+    Attribute("seconds_wake", "wall clock: wake in flight [s]"),
+    Attribute("seconds_dynamics", "wall clock: flight dynamics [s]"),
+    Attribute("seconds_total", "wall clock: total [s]"),
+    Attribute("residual_evaluations", "residual evaluations"),
+    Attribute("jacobians", "Jacobians"),
+    Attribute("relaxation_iterations", "relaxation iterations"),
+    Attribute("unconverged_revolutions", "revolutions whose inflow-circulation loop did not converge"),
+    Attribute("segment_evaluations", "wake segment evaluations"),
+    Attribute("warnings", "warnings"),
+)
