@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""Finding, reading and checking an aircraft file; every complaint is one line."""
+
+from __future__ import annotations
+
+import tomllib
+from importlib import resources
+from pathlib import Path
+from typing import Any, get_args
+
+from pydantic import BaseModel, ValidationError
+
+from ..errors import InputError
+from ..references import known_keys
+from .model import Aircraft
+from .schema import AircraftFile
+
+SHIPPED = ("uh60a",)
+"""Names of the aircraft that come with the package."""
+
+
+def load_aircraft(name_or_path: str | Path = "uh60a", loading: str | None = None) -> Aircraft:
+    """Aircraft from its file, checked: type, unit, range, missing and unknown keys, coverage of every table.
+
+    name_or_path: a shipped name (`uh60a`) or the path of a TOML file.
+    loading: a named mass and centre of gravity of the file; None is the file's `[loading]`.
+    Raises InputError, one line naming file, key, value and what is allowed.
+    """
+    path = _find(name_or_path)
+    return Aircraft(_validated(path), path, loading)
+
+
+def _find(name_or_path: str | Path) -> Path:
+    if str(name_or_path) in SHIPPED:
+        return Path(str(resources.files(__package__))) / str(name_or_path) / f"{name_or_path}.toml"
+    path = Path(name_or_path)
+    if not path.is_file():
+        allowed = f"no such file; allowed: {', '.join(SHIPPED)} or the path of an aircraft file (.toml)"
+        raise InputError.of("aircraft", str(name_or_path), allowed)
+    return path
+
+
+def _validated(path: Path) -> AircraftFile:
+    try:
+        with path.open("rb") as stream:
+            data = tomllib.load(stream)
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as reason:
+        raise InputError.of("aircraft", str(path), f"not readable as TOML: {reason}") from reason
+    except OSError as reason:
+        raise InputError.of("aircraft", str(path), f"cannot be read: {reason.strerror}") from reason
+    sources = data.get("sources")
+    context = {"directory": path.parent, "sources": set(sources) if isinstance(sources, dict) else set()}
+    try:
+        spec = AircraftFile.model_validate(data, context=context)
+    except ValidationError as reason:
+        raise _one_error(path, reason, data) from None
+    for key, source in spec.sources.items():
+        for reference in source.references:
+            if reference not in known_keys():
+                allowed = "not in the package's references.bib; leave references out and describe the source in text"
+                raise InputError.of(f"sources.{key}.references", reference, allowed, file=path)
+    return spec
+
+
+def _one_error(path: Path, reason: ValidationError, data: dict) -> InputError:
+    """The first error of a validation in one line; a missing or unknown key goes before its consequences."""
+    order = {"extra_forbidden": 0, "missing": 1}
+    error = min(reason.errors(), key=lambda each: order.get(each["type"], 2))
+    location = [str(part) for part in error["loc"]]
+    # a union reports the tag of its member, which is not a key of the file
+    location = [
+        part
+        for i, part in enumerate(location)
+        if not (location[:i] == ["interference"] and i == 1 and _tag(data))
+    ]
+    key = ".".join(location) or "file"
+    if error["type"] == "extra_forbidden":
+        return InputError.of(
+            key, "unknown key", f"allowed here: {', '.join(_allowed(location[:-1], data))}", file=path
+        )
+    if error["type"] == "missing":
+        return InputError.of(key, "missing", "must be given", file=path)
+    message = error["msg"].removeprefix("Value error, ")
+    value = error["input"]
+    if isinstance(value, dict) and "value" in value:
+        value = f"{value['value']} {value.get('unit', '')}".strip()
+    elif isinstance(value, BaseModel) or (isinstance(value, dict) and not location):
+        return InputError(f"{path}: {key}: {message}")
+    return InputError.of(key, value, message, file=path)
+
+
+def _tag(data: dict) -> bool:
+    group = data.get("interference")
+    return isinstance(group, dict) and group.get("kind") in ("tables", "factors")
+
+
+def _allowed(location: list[str], data: dict) -> list[str]:
+    """Keys of the group at `location`."""
+    model: Any = AircraftFile
+    for depth, part in enumerate(location):
+        if isinstance(model, type) and issubclass(model, BaseModel) and part in model.model_fields:
+            candidates = _models(model.model_fields[part].annotation)
+            if part == "interference" and depth == 0:
+                kind = data["interference"].get("kind")
+                candidates = [
+                    each for each in candidates if kind in get_args(each.model_fields["kind"].annotation)
+                ]
+            if not candidates:
+                return []
+            model = candidates[0]
+    return sorted(model.model_fields)
+
+
+def _models(annotation: Any) -> list[type[BaseModel]]:
+    """Models named anywhere in a type annotation."""
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return [annotation]
+    return [model for part in get_args(annotation) for model in _models(part)]

@@ -1,0 +1,233 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""An aircraft, immutable: what its file says, in SI, and what the physics core is given."""
+
+from __future__ import annotations
+
+import copy
+import math
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from pydantic import BaseModel
+
+from ..errors import InputError
+from ..units import STANDARD_GRAVITY, quantity, shown
+from .core_data import assembled, fixed_parts
+from .mass import blade_mass
+from .number import Number, Numbers, Provenance
+from .schema import AircraftFile, Loading, Rotor
+from .tables import TableFile
+
+if TYPE_CHECKING:
+    from ..condition import FlightCondition
+
+
+class SourceRow(NamedTuple):
+    """One number of an aircraft: key in the file, published value and unit, sources, confidence, note."""
+
+    key: str
+    value: Any
+    unit: str
+    sources: tuple[str, ...]
+    confidence: str
+    note: str
+
+
+class Settings(NamedTuple):
+    """Discretisation: blade modes kept, finite elements, azimuth step [rad], pitch the modes are taken at [rad]."""
+
+    n_modes: int
+    n_elements: int
+    azimuth_step: float
+    reference_pitch: float
+
+
+class Aircraft:
+    """An aircraft with one loading; make it with `load_aircraft`."""
+
+    __slots__ = ("_discretisation", "_loading", "_loading_name", "_parts", "_path", "_spec")
+
+    def __init__(self, spec: AircraftFile, path: Path, loading: str | None = None) -> None:
+        """Read and check every table; choose the loading.
+
+        spec: the validated file; path: where it lies; loading: name in `[loadings]`, None for `[loading]`.
+        """
+        if loading is not None and loading not in spec.loadings:
+            allowed = f"allowed: {', '.join(spec.loadings) or 'none, the file has no named loading'}"
+            raise InputError.of("loading", loading, allowed, file=path)
+        chosen = spec.loading
+        if loading is not None:
+            given = {key: value for key, value in spec.loadings[loading] if value is not None}
+            chosen = spec.loading.model_copy(update=given)
+        for name, value in (
+            ("_spec", spec),
+            ("_path", path),
+            ("_loading_name", loading),
+            ("_loading", chosen),
+            ("_parts", fixed_parts(spec)),
+            ("_discretisation", _settings(spec, path)),
+        ):
+            object.__setattr__(self, name, value)
+
+    def __setattr__(self, name: str, value: object) -> None:
+        """Refuse: an aircraft does not change."""
+        raise AttributeError(f"an Aircraft is immutable: {name} cannot be set")
+
+    def __repr__(self) -> str:
+        """Name and loading."""
+        loading = f", loading={self._loading_name!r}" if self._loading_name else ""
+        return f"Aircraft({self.name!r}{loading})"
+
+    @property
+    def name(self) -> str:
+        """Name given in the file."""
+        return self._spec.name
+
+    @property
+    def path(self) -> Path:
+        """The aircraft file."""
+        return self._path
+
+    @property
+    def spec(self) -> AircraftFile:
+        """Everything the file holds; numbers are SI floats with `.provenance`."""
+        return self._spec
+
+    @property
+    def rotor(self) -> Rotor:
+        """Main rotor: `radius`, `omega`, `n_blades`, `blade.root_station`, `blade.root_cutout`, ... in SI."""
+        return self._spec.rotor
+
+    @property
+    def loading(self) -> Loading:
+        """Centre of gravity and inertia in force."""
+        return self._loading
+
+    @property
+    def loading_name(self) -> str | None:
+        """Name of the loading, None for the file's own."""
+        return self._loading_name
+
+    @property
+    def conditions(self) -> tuple[str, ...]:
+        """Names of the alternative conditions of the file."""
+        return tuple(self._spec.conditions)
+
+    @property
+    def discretisation(self) -> Settings:
+        """Modes, elements, azimuth step and reference pitch."""
+        return self._discretisation
+
+    @property
+    def chord(self) -> float:
+        """Chord at three quarters of the radius [m]."""
+        table, at = self._parts["blade"]["chord"], 0.75 * float(self.rotor.radius)
+        stations, chords = table["x"], table["y"]
+        for i in range(len(stations) - 1):
+            if stations[i] <= at <= stations[i + 1]:
+                share = (at - stations[i]) / (stations[i + 1] - stations[i])
+                return chords[i] + share * (chords[i + 1] - chords[i])
+        return chords[-1]
+
+    @property
+    def solidity(self) -> float:
+        """Blade area of `chord` over disk area, n_blades chord / (pi R)."""
+        return int(self.rotor.n_blades) * self.chord / (math.pi * float(self.rotor.radius))
+
+    @property
+    def blade_mass(self) -> float:
+        """Mass of one blade beyond its root [kg], integral of the structure table."""
+        return blade_mass(self._parts["blade"]["structure"])
+
+    @property
+    def stick_travel_in(self) -> tuple[float, float, float, float]:
+        """Travel of lateral, longitudinal, collective, pedal [in]."""
+        inch = 0.0254
+        return tuple(each / inch for each in self._spec.rigging.stick_travel)
+
+    @property
+    def stick_rate_limit_in(self) -> tuple[float, float, float, float]:
+        """Travel over the full travel time [in/s], beyond which a manoeuvre is warned of."""
+        return tuple(each / float(self._spec.rigging.full_travel_time) for each in self.stick_travel_in)
+
+    @property
+    def references(self) -> tuple[str, ...]:
+        """Keys of references.bib behind the numbers of this aircraft, sorted."""
+        return tuple(sorted({key for source in self._spec.sources.values() for key in source.references}))
+
+    def default(self, name: str, condition: str | None = None) -> float:
+        """Default of a condition's `speed` [m/s], `flight_path` [rad], `altitude` [m] or `gross_mass` [kg].
+
+        condition: name of an alternative condition; what it does not give is that of the loading, then `[condition]`.
+        """
+        if condition is not None and condition not in self._spec.conditions:
+            allowed = f"allowed: {', '.join(self.conditions) or 'none, the file has no named condition'}"
+            raise InputError.of("condition", condition, allowed, file=self._path)
+        key = "weight" if name == "gross_mass" else name
+        named = self._spec.conditions[condition] if condition is not None else None
+        groups = [named, self._loading if key == "weight" else None, self._spec.condition]
+        value = next(
+            getattr(group, key) for group in groups if group is not None and getattr(group, key) is not None
+        )
+        return float(value) / STANDARD_GRAVITY if name == "gross_mass" else float(value)
+
+    @property
+    def condition(self) -> FlightCondition:
+        """The flight condition of the file, with the weight of the loading where that has one."""
+        from ..condition import condition_for
+
+        return condition_for(self)
+
+    def core_data(self, condition: FlightCondition | None = None) -> dict[str, Any]:
+        """The aircraft as the physics core reads it: plain lists, SI, radians, positions from the nominal centre of gravity.
+
+        condition: gives the gross mass; None is the aircraft's own.
+        """
+        gross_mass = condition.gross_mass if condition is not None else None
+        if gross_mass is None:
+            gross_mass = self.default("gross_mass")
+        blades = int(self.rotor.n_blades) * self.blade_mass
+        if gross_mass <= blades:
+            allowed = (
+                f"must be above the mass of the {int(self.rotor.n_blades)} blades, {shown(blades, 'lb')}"
+            )
+            raise InputError.of("weight", shown(gross_mass, "lb"), allowed)
+        # a copy: whoever receives it may change it, the aircraft may not change
+        return copy.deepcopy(assembled(self._spec, self._parts, self._loading, gross_mass))
+
+    def sources(self) -> list[SourceRow]:
+        """Every number and table of the file with its published value, sources and confidence, in file order."""
+        return list(_rows(self._spec, ""))
+
+
+def _rows(group: BaseModel, prefix: str) -> Iterator[SourceRow]:
+    for key, value in group:
+        yield from _row(f"{prefix}{key}", value)
+
+
+def _row(key: str, value: Any) -> Iterator[SourceRow]:
+    if isinstance(value, BaseModel):
+        yield from _rows(value, key + ".")
+    elif isinstance(value, dict):
+        for name, entry in value.items():
+            yield from _row(f"{key}.{name}", entry)
+    elif isinstance(value, Number | Numbers | TableFile):
+        yield from _row(key, value.provenance)
+    elif isinstance(value, Provenance):
+        yield SourceRow(key, value.value, value.unit, value.sources, value.confidence, value.note)
+
+
+def _settings(spec: AircraftFile, path: Path) -> Settings:
+    given = spec.discretisation
+    step = quantity(given.azimuth_step, "rad", f"{path}: discretisation.azimuth_step")
+    if given.reference_pitch is not None:
+        pitch = quantity(given.reference_pitch, "rad", f"{path}: discretisation.reference_pitch")
+    else:
+        # mid collective stick, no cyclic: row theta_0, column collective
+        rigging = spec.rigging
+        pitch = rigging.offset[2] + rigging.matrix[2][2] * 0.5 * rigging.stick_travel[2]
+    from ..inflow import check_azimuth_step
+
+    check_azimuth_step(step, int(spec.rotor.n_blades), f"{path}: discretisation.azimuth_step")
+    return Settings(given.n_modes, given.n_elements, step, pitch)

@@ -1,0 +1,290 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""What an aircraft file may hold: components, their numbers and the allowed range of each.
+
+Presence is meaning: a group that is not in the file is a part the aircraft does not have. Only the
+discretisation has defaults; every other missing number is an error.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, model_validator
+
+from .number import Noted, Weight, scalar, vector
+from .tables import Table
+
+_DEG = math.pi / 180.0
+
+Length = scalar("m", above=0.0, high=100.0)
+Offset = scalar("m", low=0.0, high=100.0)
+Position = vector("m", 3, low=-100.0, high=100.0)
+Station = scalar("m", low=-100.0, high=100.0)
+Angle = scalar("rad", low=-math.pi, high=math.pi)
+Rate = scalar("rad/s", above=0.0, high=1000.0)
+Area = scalar("m2", above=0.0, high=1000.0)
+Fraction = scalar("1", low=0.0, high=1.0)
+
+
+class Group(BaseModel):
+    """A group of an aircraft file: immutable, no unknown keys."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True, arbitrary_types_allowed=True)
+
+
+class Source(Group):
+    """A source: what it is and how it was read, and its keys in the bibliography."""
+
+    text: Annotated[str, Field(min_length=1)]
+    references: list[str] = []
+
+
+class Condition(Group):
+    """A flight condition; in a named one, what is not given is that of `[condition]`."""
+
+    speed: scalar("m/s", low=0.0, high=260.0) | None = None
+    flight_path: scalar("rad", low=-math.pi / 2, high=math.pi / 2) | None = None
+    altitude: scalar("m", low=-500.0, high=11000.0) | None = None
+    weight: Weight | None = None
+    note: str = ""
+
+
+class Inertia(Group):
+    """Moments of inertia; `of` says whether blades are left out (`airframe`) or included as masses at the hub (`gross`)."""
+
+    of: Literal["airframe", "gross"]
+    ixx: scalar("kg m2", above=0.0, high=1e7)
+    iyy: scalar("kg m2", above=0.0, high=1e7)
+    izz: scalar("kg m2", above=0.0, high=1e7)
+    ixz: scalar("kg m2", low=-1e7, high=1e7)
+
+
+class Loading(Group):
+    """Centre of gravity and inertia; in a named loading, what is not given is that of `[loading]`."""
+
+    weight: Weight | None = None
+    cg_station: Station | None = None
+    cg_buttline: Station | None = None
+    cg_waterline: Station | None = None
+    inertia: Inertia | None = None
+
+
+class Blade(Group):
+    """Blade: `root` hinged (flap and lag hinge at `root_station`) or clamped there."""
+
+    root: Literal["hinged", "clamped"]
+    root_station: scalar("m", above=0.0, high=20.0)
+    root_cutout: Length
+    structure: Table
+    geometry: Table
+    straight_tip: bool
+    pitch_axis_chord_fraction: Fraction
+    control_stiffness: scalar("N m/rad", above=0.0, high=1e9)
+    km1_over_ktheta: Fraction
+    ka_over_ktheta: scalar("1", low=0.0, high=10.0)
+    structural_damping_ratio: scalar("1", low=0.0, high=0.5)
+    delta3: scalar("rad", low=-80 * _DEG, high=80 * _DEG)
+    precone: scalar("rad", low=-20 * _DEG, high=20 * _DEG)
+
+
+class Airfoil(Group):
+    """Section tables along the whole span."""
+
+    name: str
+    cl: Table
+    cd: Table
+    cm: Table
+    cd_increment: scalar("1", low=-0.1, high=0.1)
+
+
+class LagDamper(Group):
+    """Hydraulic lag damper: geometry, force against rate, and a hinge spring that is off unless `use_spring`."""
+
+    a: Station
+    b: Station
+    c: Station
+    d: Station
+    r: Station
+    theta_geo: Angle
+    zeta_geo: Angle
+    force: Table
+    use_spring: bool = False
+    spring_rate: scalar("N m/rad", low=0.0, high=1e8) | None = None
+
+    @model_validator(mode="after")
+    def _spring(self) -> LagDamper:
+        if self.use_spring and self.spring_rate is None:
+            raise ValueError("use_spring = true needs a spring_rate")
+        return self
+
+
+class Rotor(Group):
+    """Main rotor, counter-clockwise seen from above."""
+
+    hub: Position
+    n_blades: scalar("1", low=2, high=8, whole=True)
+    radius: Length
+    omega: Rate
+    shaft_tilt_forward: scalar("rad", low=-30 * _DEG, high=30 * _DEG)
+    shaft_tilt_lateral: scalar("rad", low=-30 * _DEG, high=30 * _DEG)
+    tip_loss_factor: scalar("1", low=0.8, high=1.0)
+    swashplate_phase: Angle
+    blade: Blade
+    airfoil: Airfoil
+    lag_damper: LagDamper | None = None
+
+
+class Rigging(Group):
+    """Sticks to blade pitch: pitch = offset + matrix . (lateral, longitudinal, collective, pedal)."""
+
+    stick_travel: vector("m", 4, low=0.01, high=2.0)
+    matrix: vector("rad/m", 4, low=-100.0, high=100.0, rows=4)
+    offset: vector("rad", 4, low=-math.pi, high=math.pi)
+    full_travel_time: scalar("s", above=0.0, high=100.0)
+
+
+class TailRotor(Group):
+    """Tail rotor; thrust to the right and up by the cant."""
+
+    hub: Position
+    radius: Length
+    solidity: scalar("1", above=0.0, high=1.0)
+    omega: Rate
+    cant: scalar("rad", low=-90 * _DEG, high=90 * _DEG)
+    twist: Angle
+    lift_curve_slope: scalar("1/rad", above=0.0, high=10.0)
+    tip_loss_factor: scalar("1", low=0.5, high=1.0)
+    pitch_bias: Angle
+    coning: scalar("rad/N", low=0.0, high=1.0) | None = None
+    tan_delta3: scalar("1", low=-10.0, high=10.0) | None = None
+    cd_polar: vector("1", 3, low=-10.0, high=10.0)
+    fin_blockage: vector(("1", "1", "m/s"), 3, low=0.0, high=1000.0)
+
+    @model_validator(mode="after")
+    def _delta3(self) -> TailRotor:
+        if self.coning is not None and self.tan_delta3 is None:
+            raise ValueError("coning needs tan_delta3")
+        return self
+
+
+class Schedule(Group):
+    """Incidence schedule of a stabilator: degrees, knots equivalent airspeed, collective per cent."""
+
+    base: Angle
+    v1: vector("m/s", 2, low=0.0, high=500.0)
+    coll_const: scalar("rad s/m", low=-10.0, high=10.0)
+    coll_slope: scalar("rad s/m", low=-10.0, high=10.0)
+    coll_breaks: vector("1", 4, low=0.0, high=100.0)
+    v2: vector(("m/s", "m/s", "rad s/m"), 3, low=-500.0, high=500.0)
+    q_gain: scalar("s", low=-100.0, high=100.0)
+    rate_limit: scalar("rad/s", above=0.0, high=10.0)
+
+
+class Stabilator(Group):
+    """Horizontal tail: a fixed `incidence`, or a `schedule` with `incidence_limits`."""
+
+    position: Position
+    area: Area
+    aerodynamics: Table
+    incidence: Angle | None = None
+    incidence_limits: vector("rad", 2, low=-math.pi, high=math.pi) | None = None
+    schedule: Schedule | None = None
+
+    @model_validator(mode="after")
+    def _one_rule(self) -> Stabilator:
+        if (self.schedule is None) == (self.incidence is None):
+            raise ValueError("needs either a fixed incidence or a schedule")
+        if self.schedule is not None:
+            if self.incidence_limits is None:
+                raise ValueError("a schedule needs incidence_limits")
+            if not self.incidence_limits[0] < self.incidence_limits[1]:
+                raise ValueError("incidence_limits must ascend")
+        return self
+
+
+class Fin(Group):
+    """Vertical tail."""
+
+    position: Position
+    area: Area
+    incidence: Angle
+    aerodynamics: Table
+
+
+class Fuselage(Group):
+    """Fuselage loads over dynamic pressure, on a grid of angle of attack and sideslip."""
+
+    position: Position
+    aerodynamics: Table
+
+
+class InterferenceTables(Group):
+    """Rotor and fuselage wash by tables."""
+
+    kind: Literal["tables"]
+    rotor_wash: Table
+    fuselage_wash: Table
+    q_ratio_stabilator: Table
+    q_ratio_fin: Table
+
+
+class InterferenceFactors(Group):
+    """Downwash as a factor times the mean induced velocity."""
+
+    kind: Literal["factors"]
+    fuselage: scalar("1", low=-5.0, high=5.0)
+    stabilator: scalar("1", low=-5.0, high=5.0)
+
+
+class Drive(Group):
+    """Drive train at constant rotor speed."""
+
+    accessory_power: scalar("W", low=0.0, high=1e7)
+
+
+class Discretisation(Group):
+    """How finely to compute: the only group with defaults."""
+
+    n_modes: Annotated[int, Field(ge=1, le=30)] = 5
+    n_elements: Annotated[int, Field(ge=1, le=100)] = 4
+    azimuth_step: str = "10 deg"
+    reference_pitch: str | None = None
+
+
+class AircraftFile(Group):
+    """A whole aircraft file."""
+
+    format: Literal[1]
+    name: Annotated[str, Field(min_length=1)]
+    notes: str = ""
+    sources: dict[str, Source]
+    condition: Condition
+    conditions: dict[str, Condition] = {}
+    loading: Loading
+    loadings: dict[str, Loading] = {}
+    rotor: Rotor
+    rigging: Rigging
+    tail_rotor: TailRotor | None = None
+    stabilator: Stabilator | None = None
+    fin: Fin | None = None
+    fuselage: Fuselage | None = None
+    interference: Annotated[InterferenceTables | InterferenceFactors, Field(discriminator="kind")] | None = (
+        None
+    )
+    drive: Drive
+    discretisation: Discretisation = Discretisation()
+    comparison: dict[str, Noted] = {}
+
+    @model_validator(mode="after")
+    def _complete(self) -> AircraftFile:
+        for group, keys in (
+            ("condition", ("speed", "flight_path", "altitude", "weight")),
+            ("loading", ("cg_station", "cg_buttline", "cg_waterline", "inertia")),
+        ):
+            for key in keys:
+                if getattr(getattr(self, group), key) is None:
+                    raise ValueError(f"{group}.{key} is missing")
+        if not self.rotor.blade.root_station < self.rotor.blade.root_cutout < self.rotor.radius:
+            raise ValueError("rotor.blade: root_station, root_cutout and the radius must ascend")
+        return self

@@ -1,0 +1,195 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""Tables beside an aircraft file: CSV with a comment as header and a unit suffix on every column."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any
+
+from pydantic import BeforeValidator, ValidationInfo
+
+from ..errors import InputError
+from ..units import convert
+from .number import Provenance, provenance_of
+
+SUFFIXES = {
+    "deg": "deg",
+    "rad": "rad",
+    "m": "m",
+    "ft": "ft",
+    "in": "in",
+    "m2": "m2",
+    "ft2": "ft2",
+    "m3": "m3",
+    "ft3": "ft3",
+    "kg_m": "kg/m",
+    "kgm": "kg m",
+    "Nm2": "N m2",
+    "m_s": "m/s",
+    "in_s": "in/s",
+    "N": "N",
+    "lbf": "lbf",
+}
+"""Unit of each column suffix; `_R` is a fraction of the radius, no suffix a number without dimension."""
+
+
+@dataclass(frozen=True)
+class TableFile:
+    """A CSV file, read: columns by header, comment lines, where it comes from."""
+
+    path: Path
+    columns: dict[str, tuple[float, ...]]
+    comment: str
+    provenance: Provenance
+
+    def error(self, column: str, value: object, allowed: str) -> InputError:
+        """Error about one column of this file."""
+        return InputError.of(column, value, allowed, file=self.path)
+
+    def column(self, base: str, si_unit: str, radius: float | None = None) -> list[float]:
+        """Column `base` in `si_unit`: the header is `base` and a suffix of that dimension (`_R`: times `radius`)."""
+        if si_unit == "1" and base in self.columns:
+            return list(self.columns[base])
+        found: list[tuple[str, list[float]]] = []
+        for header, values in self.columns.items():
+            suffix = header.removeprefix(base + "_") if header.startswith(base + "_") else None
+            if suffix == "R" and radius is not None:
+                found.append((header, [value * radius for value in values]))
+            elif suffix in SUFFIXES:
+                try:
+                    found.append((header, [convert(value, SUFFIXES[suffix], si_unit) for value in values]))
+                except ValueError as reason:
+                    raise self.error(header, f"column in {SUFFIXES[suffix]}", str(reason)) from reason
+        if len(found) != 1:
+            allowed = self._suffixes(si_unit, radius)
+            given = ", ".join(header for header, _ in found) or "missing"
+            raise self.error(base, given, f"one column is needed, {base} with a suffix of {allowed}")
+        return found[0][1]
+
+    def has(self, base: str) -> bool:
+        """Whether there is a column `base`, with or without suffix."""
+        return any(header == base or header.rsplit("_", 1)[0] == base for header in self.columns)
+
+    def _suffixes(self, si_unit: str, radius: float | None) -> str:
+        names = ["_R"] if radius is not None else []
+        for suffix, unit in SUFFIXES.items():
+            try:
+                convert(1.0, unit, si_unit)
+            except ValueError:
+                continue
+            names.append("_" + suffix)
+        return ", ".join(names) or "none (no unit)"
+
+
+def read_csv(path: Path, provenance: Provenance) -> TableFile:
+    """Read a CSV file: `#` lines first, one header line, numbers (text columns are notes and left out)."""
+    try:
+        lines = path.read_text(encoding="utf-8").splitlines()
+    except OSError as reason:
+        raise ValueError(f"names the file {path}, which cannot be read") from reason
+    except UnicodeDecodeError as reason:
+        raise ValueError(f"names the file {path}, which is not UTF-8 text") from reason
+    comment = [line[1:].strip() for line in lines if line.startswith("#")]
+    rows = [
+        [cell.strip() for cell in line.split(",")]
+        for line in lines
+        if line.strip() and not line.startswith("#")
+    ]
+    if len(rows) < 2:
+        raise ValueError(f"names the file {path}, which has no header line with numbers below it")
+    header, body = rows[0], rows[1:]
+    if len(set(header)) != len(header):
+        raise ValueError(f"names the file {path}, in which a column stands twice")
+    for row in body:
+        if len(row) != len(header):
+            raise ValueError(
+                f"names the file {path}, whose line '{','.join(row)[:40]}' has not {len(header)} columns"
+            )
+    columns: dict[str, tuple[float, ...]] = {}
+    for index, name in enumerate(header):
+        cells = [row[index] for row in body]
+        numbers = [number for number in map(_number, cells) if number is not None]
+        if not numbers:
+            continue
+        if len(numbers) != len(cells):
+            wrong = next(cell for cell in cells if _number(cell) is None)
+            raise ValueError(
+                f"names the file {path}, whose column {name} holds '{wrong}', not a finite number"
+            )
+        columns[name] = tuple(numbers)
+    return TableFile(path, columns, "\n".join(comment), provenance)
+
+
+def _number(cell: str) -> float | None:
+    try:
+        number = float(cell)
+    except ValueError:
+        return None
+    return number if math.isfinite(number) else None
+
+
+def _validate(entry: Any, info: ValidationInfo) -> TableFile:
+    allowed = "a table { table, source, confidence } naming a CSV file beside this one"
+    provenance = provenance_of(entry, info, {"table", "source", "confidence", "note"}, allowed)
+    name = entry.get("table")
+    if not isinstance(name, str) or not name:
+        raise ValueError(f"must be {allowed}")
+    directory = (info.context or {}).get("directory", Path())
+    published = Provenance(name, "table", provenance.sources, provenance.confidence, provenance.note)
+    return read_csv(Path(directory) / name, published)
+
+
+Table = Annotated[TableFile, BeforeValidator(_validate)]
+"""Type of a table named in an aircraft file."""
+
+
+def ascending(table: TableFile, name: str, values: list[float]) -> None:
+    """Refuse a column that does not ascend strictly."""
+    for before, after in zip(values, values[1:], strict=False):
+        if not after > before:
+            raise table.error(name, f"{before:g}, {after:g}", "must ascend strictly")
+
+
+def covering(table: TableFile, name: str, values: list[float], low: float, high: float, what: str) -> None:
+    """Refuse a column that does not reach from `low` to `high` (SI, to rounding)."""
+    slack = 1e-6 * max(abs(low), abs(high), 1e-12)
+    if values[0] > low + slack or values[-1] < high - slack:
+        raise table.error(name, f"{values[0]:.6g} .. {values[-1]:.6g}", f"must cover {what}")
+
+
+def curve(table: TableFile, x: str, x_unit: str, y: str, y_unit: str) -> dict[str, list[float]]:
+    """Piecewise linear function {x, y} in SI."""
+    arguments = table.column(x, x_unit)
+    ascending(table, x, arguments)
+    return {"x": arguments, "y": table.column(y, y_unit)}
+
+
+def grid(table: TableFile, x: str, y: str, value: str, unit: str) -> dict[str, list]:
+    """Bilinear function {x, y, values} in SI from a table in long form: one line for each pair of angles."""
+    rows, columns = table.column(x, "rad"), table.column(y, "rad")
+    values = table.column(value, unit)
+    axis_x, axis_y = sorted(set(rows)), sorted(set(columns))
+    cells = dict(zip(zip(rows, columns, strict=True), values, strict=True))
+    if len(cells) != len(values) or len(cells) != len(axis_x) * len(axis_y):
+        allowed = f"must hold every pair of {x} and {y} once ({len(axis_x)} x {len(axis_y)})"
+        raise table.error(f"{x}, {y}", f"{len(values)} lines", allowed)
+    return {"x": axis_x, "y": axis_y, "values": [[cells[a, b] for b in axis_y] for a in axis_x]}
+
+
+def by_mach(table: TableFile) -> dict[str, list]:
+    """Section coefficient {x, y, values}: rows angle of attack [rad] over +-180 deg, columns `M0.3` over 0 to 0.9 or more."""
+    alpha = table.column("alpha", "rad")
+    ascending(table, "alpha", alpha)
+    covering(table, "alpha", alpha, -math.pi, math.pi, "-180 to 180 deg")
+    headers = [
+        header for header in table.columns if header.startswith("M") and _number(header[1:]) is not None
+    ]
+    mach = [float(header[1:]) for header in headers]
+    if not mach:
+        raise table.error("M...", "missing", "columns by Mach number are needed, such as M0.0, M0.3")
+    ascending(table, "M...", mach)
+    covering(table, "M...", mach, 0.0, 0.9, "Mach 0 to 0.9 or more")
+    values = [[table.columns[header][row] for header in headers] for row in range(len(alpha))]
+    return {"x": alpha, "y": mach, "values": values}

@@ -1,0 +1,154 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""Flight condition: how fast, along which path, how high, how heavy, and how trim is to be asked for."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING, Any
+
+from .errors import InputError
+from .units import STANDARD_GRAVITY, convert, mass_of_weight, quantity, shown
+
+if TYPE_CHECKING:
+    from .aircraft import Aircraft
+
+HEADING_FREE_SPEED = convert(60.0, "kt", "m/s")
+"""At and above this speed [m/s] trim asks for zero bank and leaves the heading free; below, zero sideslip and bank free."""
+
+# SI unit, smallest, largest, unit shown
+_RANGES = {
+    "speed": ("m/s", 0.0, convert(500.0, "kt", "m/s"), "kt"),
+    "flight_path": ("rad", -math.pi / 2, math.pi / 2, "deg"),
+    "altitude": ("m", -500.0, 11000.0, "m"),
+    "sideslip": ("rad", -math.pi, math.pi, "deg"),
+    "turn_rate": ("rad/s", -math.pi / 2, math.pi / 2, "deg/s"),
+    "bank": ("rad", -math.radians(85.0), math.radians(85.0), "deg"),
+}
+_MASS = (10.0, 1e5)
+
+
+@dataclass(frozen=True, init=False)
+class FlightCondition:
+    """Flight condition, in SI and radians once made; what is not given is None until an aircraft completes it.
+
+    speed [m/s]: true airspeed, never negative. flight_path [rad]: climb +. altitude [m]: standard atmosphere.
+    gross_mass [kg]: of the weight given as force (lbf, N) or mass (lb, kg), weight = mass x 9.80665 m/s2.
+    sideslip [rad]: wind from the right +, 180 deg is rearward flight. turn_rate [rad/s]: to the right +.
+    bank [rad]: to the right +. heading: `free` (bank as given or zero, sideslip found by trim) or `aligned`
+    (sideslip as given or zero, bank found by trim); not given, `free` at 60 kt and above in straight flight.
+    """
+
+    speed: float | None
+    flight_path: float | None
+    altitude: float | None
+    gross_mass: float | None
+    sideslip: float | None
+    turn_rate: float
+    bank: float | None
+    heading: str | None
+
+    def __init__(
+        self,
+        speed: Any = None,
+        flight_path: Any = None,
+        altitude: Any = None,
+        weight: Any = None,
+        sideslip: Any = None,
+        turn_rate: Any = None,
+        bank: Any = None,
+        heading: str | None = None,
+    ) -> None:
+        """Read and check what is given: text with units, or pint quantities."""
+        given = {
+            "speed": speed,
+            "flight_path": flight_path,
+            "altitude": altitude,
+            "sideslip": sideslip,
+            "turn_rate": turn_rate,
+            "bank": bank,
+        }
+        for name, value in given.items():
+            number = None if value is None else _in_range(name, value)
+            object.__setattr__(self, name, 0.0 if name == "turn_rate" and number is None else number)
+        mass = None if weight is None else mass_of_weight(weight)
+        if mass is not None and not _MASS[0] <= mass <= _MASS[1]:
+            allowed = (
+                f"must lie between {shown(_MASS[0], 'kg')} and {shown(_MASS[1], 'kg')} (times 9.80665 m/s2)"
+            )
+            raise InputError.of("weight", weight, allowed)
+        object.__setattr__(self, "gross_mass", mass)
+        object.__setattr__(self, "heading", _heading(heading, self.sideslip, self.bank))
+
+    @property
+    def weight(self) -> float | None:
+        """Weight [N]: gross mass times standard gravity."""
+        return None if self.gross_mass is None else self.gross_mass * STANDARD_GRAVITY
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether nothing is left for an aircraft to fill in."""
+        return None not in (self.speed, self.flight_path, self.altitude, self.gross_mass, self.heading)
+
+    def completed(self, aircraft: Aircraft, named: str | None = None) -> FlightCondition:
+        """This condition with what is not given taken from the aircraft; `named`: one of its alternative conditions."""
+        values = {field.name: getattr(self, field.name) for field in fields(self)}
+        for name in ("speed", "flight_path", "altitude", "gross_mass"):
+            if values[name] is None:
+                values[name] = aircraft.default(name, named)
+        if values["heading"] is None:
+            fast_and_straight = (
+                values["speed"] >= HEADING_FREE_SPEED * (1.0 - 1e-9) and values["turn_rate"] == 0.0
+            )
+            values["heading"] = "free" if fast_and_straight else "aligned"
+        if values["heading"] == "free":
+            values["bank"] = 0.0 if values["bank"] is None else values["bank"]
+        else:
+            values["sideslip"] = 0.0 if values["sideslip"] is None else values["sideslip"]
+        whole = object.__new__(FlightCondition)
+        for name, value in values.items():
+            object.__setattr__(whole, name, value)
+        return whole
+
+    def as_attributes(self) -> dict[str, float | str]:
+        """What is set, by name, SI and radians, for the attributes of a result."""
+        values = {field.name: getattr(self, field.name) for field in fields(self)}
+        return {name: value for name, value in values.items() if value is not None}
+
+
+def condition_for(
+    aircraft: Aircraft, condition: FlightCondition | None = None, named: str | None = None, **given: Any
+) -> FlightCondition:
+    """Complete condition of `aircraft`: `condition`, or one made of `given` (text with units); the rest from its file.
+
+    named: an alternative condition of the file to take the rest from.
+    """
+    if condition is not None and given:
+        raise InputError.of("condition", ", ".join(given), "give either a condition or its values, not both")
+    return (condition or FlightCondition(**given)).completed(aircraft, named)
+
+
+def _in_range(name: str, value: Any) -> float:
+    si_unit, low, high, unit = _RANGES[name]
+    number = quantity(value, si_unit, name)
+    slack = 1e-12 * max(abs(low), abs(high))
+    if not low - slack <= number <= high + slack:
+        raise InputError.of(name, value, f"must lie between {shown(low, unit)} and {shown(high, unit)}")
+    return number
+
+
+def _heading(heading: str | None, sideslip: float | None, bank: float | None) -> str | None:
+    """Convention of trim from what is given; sideslip and bank together would ask for too much."""
+    if heading not in (None, "free", "aligned"):
+        raise InputError.of(
+            "heading", heading, "allowed: free (bank given or zero), aligned (sideslip given or zero)"
+        )
+    if sideslip is not None and (bank is not None or heading == "free"):
+        raise InputError.of(
+            "sideslip", shown(sideslip, "deg"), "trim finds it where bank is given or heading is free"
+        )
+    if bank is not None and heading == "aligned":
+        raise InputError.of("bank", shown(bank, "deg"), "trim finds it where heading is aligned")
+    if sideslip is not None:
+        return "aligned"
+    return "free" if bank is not None else heading

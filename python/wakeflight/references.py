@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""The bibliography of the package: `references.bib`, for equations and data alike."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from functools import cache
+from importlib import resources
+
+from .errors import InputError
+
+_ENTRY = re.compile(r"^@\w+\{([^,\s]+),.*?^\}", re.MULTILINE | re.DOTALL)
+
+
+@cache
+def _entries() -> dict[str, str]:
+    text = (resources.files(__package__) / "references.bib").read_text(encoding="utf-8")
+    return {match.group(1): match.group(0) for match in _ENTRY.finditer(text)}
+
+
+def known_keys() -> frozenset[str]:
+    """Every key of the bibliography."""
+    return frozenset(_entries())
+
+
+def bibtex(keys: Iterable[str]) -> str:
+    """BibTeX of `keys`, each once, sorted by key."""
+    wanted = sorted(set(keys))
+    for key in wanted:
+        if key not in _entries():
+            raise InputError.of("reference", key, "not a key of references.bib")
+    return "\n\n".join(_entries()[key] for key in wanted)
