@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """What the flight gets from an inflow model at every exchange, and what it gives: the three models behind one door."""
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ class MarchingExchange:
     def __init__(self, model: Model, trimmed: WakeInTrim):
         self.model = model
         self.n = model.steps_per_revolution
-        self.wake = _core.TimeMarchingWake.from_relaxation(trimmed.relaxation, 0)
+        self.wake = _core.TimeMarchingWake.from_relaxation(trimmed.relaxation, 0, model.wake_options)
         self.step_index = 0
         rows = self._rows(0)
         self.lambda_far = trimmed.lambda_far[rows]
@@ -27,7 +28,7 @@ class MarchingExchange:
         self.inflow = trimmed.inflow_map[rows]
         self.monitors = {"max_displacement": 0.0, "odd_even": 0.0}
         self.circulation_not_converged = 0
-        self._before: np.ndarray | None = None
+        self._frozen: tuple | None = None
 
     def _rows(self, step: int) -> list[int]:
         """Azimuth index of every blade after `step` steps."""
@@ -50,15 +51,11 @@ class MarchingExchange:
         self._solve(y, stick, stick_rate, q, q_dot)
         hub_velocity, hub_rates = core.hub(y)
         flap, lead = core.equivalent_angles(q)
-        report = self.wake.step(hub_velocity, hub_rates, self.psi, flap, lead, self.circulation)
-        self.monitors = {"max_displacement": report["max_displacement"], "odd_even": report["odd_even"]}
-        far = self.wake.inflow_far()
-        self._before, self.lambda_far = self.lambda_far, far
+        blades = np.column_stack([self.psi, flap, lead])
+        displacement, odd_even, _ = self.wake.step(hub_velocity, hub_rates, blades, self.circulation)
+        self.monitors = {"max_displacement": displacement, "odd_even": odd_even}
+        self.lambda_far = self.wake.inflow_far()
         self._solve(y, stick, stick_rate, q, q_dot)
-        for _ in range(self.model.inflow.recorrect):
-            # option: inflow of the wake with the circulation just found, wake not advanced again
-            self.lambda_far = self.wake.inflow_far_with(self.circulation)
-            self._solve(y, stick, stick_rate, q, q_dot)
         return self.inflow
 
     def _solve(
@@ -72,7 +69,7 @@ class MarchingExchange:
     def frozen_step(self, problem: _core.TrimProblem, x: np.ndarray) -> tuple[list[int], np.ndarray, np.ndarray]:
         """One step with states and controls of the trim, circulation following the inflow."""
         core = self.model.core
-        if getattr(self, "_frozen", None) is None or self._frozen[0] is not problem:
+        if self._frozen is None or self._frozen[0] is not problem:
             q, q_dot = core.trim_motion(problem, x, self.n)
             self._frozen = (problem, q, q_dot, core.trim_state(problem, x, 0.0)[0])
         _, q, q_dot, y = self._frozen
@@ -97,3 +94,49 @@ class MarchingExchange:
     def segment_evaluations(self) -> int:
         """Counted evaluations of the segment law."""
         return int(self.wake.segment_evaluations)
+
+
+class RelaxationExchange:
+    """Relaxation free wake in the response: inflow of the state taken as steady, renewed once per revolution."""
+
+    def __init__(self, model: Model, trimmed: WakeInTrim):
+        self.model = model
+        self.n = model.steps_per_revolution
+        self.trimmed = trimmed
+        self.inflow_map = trimmed.inflow_map
+        self.circulation_map = trimmed.circulation
+        self.unconverged = 0
+        self.updates = 0
+        self._motion = [None] * self.n
+
+    def rows(self, step: int) -> list[int]:
+        """Azimuth index of every blade after `step` steps."""
+        return [(step + b * self.n // self.model.n_blades) % self.n for b in range(self.model.n_blades)]
+
+    def remember(self, step: int, q: np.ndarray, q_dot: np.ndarray) -> None:
+        """Keep the motion of the blades (n_blades, n_modes) at their azimuths: the latest passage of each azimuth counts."""
+        for b, row in enumerate(self.rows(step)):
+            self._motion[row] = (q[b].copy(), q_dot[b].copy())
+
+    def renew(self, y: np.ndarray, stick: np.ndarray) -> None:
+        """Converge wake and circulation for the present hub motion, sticks and the blades' last passages."""
+        q = np.array([motion[0] for motion in self._motion])
+        q_dot = np.array([motion[1] for motion in self._motion])
+        options = self.model.inflow
+        converged = self.trimmed.converge_motion(y, stick, q, q_dot, options.max_loops_response)
+        self.updates += 1
+        self.unconverged += not converged
+        self.inflow_map, self.circulation_map = self.trimmed.inflow_map, self.trimmed.circulation
+
+    def inflow(self, step: int) -> np.ndarray:
+        """Inflow (n_blades, n_stations) over the step that begins: mean of the map at its two ends, so that it does not lag."""
+        return 0.5 * (self.inflow_map[self.rows(step)] + self.inflow_map[self.rows(step + 1)])
+
+    def position(self, step: int) -> np.ndarray:
+        """Tip vortices (n_blades, n_ages, 3) [m], hub axes, with the blades at their azimuths of `step`."""
+        return self.trimmed.relaxation.position()[self.rows(step)]
+
+    @property
+    def segment_evaluations(self) -> int:
+        """Counted evaluations of the segment law."""
+        return int(self.trimmed.relaxation.segment_evaluations)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """The compiled aircraft of one condition, and the few numbers of it that the verbs need."""
 
 from __future__ import annotations
@@ -13,8 +14,10 @@ from . import _core
 from .aircraft import Aircraft
 from .condition import FlightCondition
 from .inflow import DynamicInflow, InflowModel
+from .units import STANDARD_GRAVITY
 
-GRAVITY = 9.80665  # standard gravity [m/s2]
+N_GAUSS = 8
+"""Quadrature points per finite element in the equations of motion; frequencies and loads change below 1e-6 beyond it."""
 
 
 @dataclass(frozen=True)
@@ -35,17 +38,18 @@ class Model:
         density, speed_of_sound, _ = _core.standard_atmosphere(condition.altitude)
         data = aircraft.core_data(condition)
         d = aircraft.discretisation
+        inflow.step(aircraft)
         core = _core.Aircraft(
             json.dumps(data),
             density,
             speed_of_sound,
-            GRAVITY,
+            STANDARD_GRAVITY,
             not isinstance(inflow, DynamicInflow),
             d.n_elements,
             d.n_modes,
-            d.n_gauss,
+            N_GAUSS,
             inflow.n_stations,
-            aircraft.reference_pitch,
+            d.reference_pitch,
         )
         return cls(aircraft, condition, inflow, core, data, density, speed_of_sound)
 
@@ -88,7 +92,7 @@ class Model:
     @property
     def steps_per_revolution(self) -> int:
         """Coupling steps in a revolution."""
-        return round(2 * np.pi / self.inflow.azimuth_step)
+        return round(2 * np.pi / self.inflow.step(self.aircraft))
 
     @cached_property
     def wake_options(self) -> str:
@@ -101,8 +105,8 @@ class Model:
 
     def modal(self, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Modal coordinates and rates of all blades, (n_blades, n_modes) each."""
-        pick = lambda spans: np.array([y[a:b] for a, b in spans])  # noqa: E731
-        return pick(self.layout["modal"]), pick(self.layout["modal_rate"])
+        q, q_dot = (np.array([y[a:b] for a, b in self.layout[part]]) for part in ("modal", "modal_rate"))
+        return q, q_dot
 
     def pitch_controls(self, stick: np.ndarray) -> np.ndarray:
         """theta_1c, theta_1s, theta_0, theta_tr [rad] for sticks [m]."""

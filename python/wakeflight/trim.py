@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """Trim: the verb that finds sticks, attitude, periodic blade motion and inflow of a steady flight condition."""
 
 from __future__ import annotations
@@ -12,9 +13,10 @@ from . import _core
 from .aircraft import Aircraft
 from .condition import FlightCondition, condition_for
 from .errors import NumericalFailure
-from .inflow import DynamicInflow, InflowModel, TimeMarchingWake, inflow_model
+from .inflow import DynamicInflow, InflowModel, TimeMarchingWake, inflow_model, trim_model
 from .model import Model
-from .progress import Progress, silent
+from .progress import Progress, Silent
+from .units import STANDARD_GRAVITY
 from .wake_trim import WakeInTrim, marching_map
 
 INCH = 0.0254
@@ -149,63 +151,85 @@ def trim(
     aircraft: Aircraft,
     condition: FlightCondition | None = None,
     inflow: str | InflowModel = "relaxation",
-    progress: Progress | None = None,
+    progress: Progress | Silent | None = None,
+    n_harmonics: int = 8,
 ) -> Trim:
     """Trim `aircraft` in `condition` (default: the aircraft's own) with an inflow model.
 
     Raises `InputError` for bad input and `NumericalFailure`, naming the equation that is not met, where no trim is found.
     """
-    progress = progress or silent()
-    start = time.perf_counter()
-    condition = condition if isinstance(condition, FlightCondition) and condition.complete else condition_for(
-        aircraft, condition
-    )
+    progress = progress or Silent()
+    started = time.perf_counter()
+    condition = condition_for(aircraft, condition)
     chosen = inflow_model(inflow)
-    chosen.check(aircraft)
-    progress.phase("trim", total=None)
+    chosen.step(aircraft)
+    progress.phase("trim", None)
 
     # dynamic inflow first: the result itself, or the start of the free wake
-    simple = Model.build(aircraft, condition, chosen if isinstance(chosen, DynamicInflow) else DynamicInflow())
-    problem = trim_problem(simple, None)
+    dynamic = chosen if isinstance(chosen, DynamicInflow) else DynamicInflow(n_stations=chosen.n_stations)
+    simple = Model.build(aircraft, condition, dynamic)
+    problem = trim_problem(simple, None, n_harmonics)
     x = solve(simple, problem, first_guess(simple, problem))
     progress.advance(1, "dynamic inflow")
     if isinstance(chosen, DynamicInflow):
         inflow_map, circulation = dynamic_map(simple, problem, x)
-        return Trim(simple, problem, x, inflow_map, circulation, None, time.perf_counter() - start)
+        return Trim(simple, problem, x, inflow_map, circulation, None, time.perf_counter() - started)
 
-    model = Model.build(aircraft, condition, chosen)
+    model = Model.build(aircraft, condition, trim_model(chosen))
     inflow_map, _ = dynamic_map(simple, problem, x, model.steps_per_revolution)
     x = np.delete(x, slice(7, 10))
     wake = WakeInTrim(model, inflow_map)
-    history = []
+    problem, x, inflow_map, history = on_relaxation(model, wake, x, inflow_map, n_harmonics, progress)
+    circulation = wake.circulation
+    if isinstance(chosen, TimeMarchingWake):
+        model = Model.build(aircraft, condition, chosen)
+        problem, x, inflow_map, circulation = on_marching(model, problem, x, wake, n_harmonics, progress)
+    seconds = time.perf_counter() - started
+    return Trim(model, problem, x, inflow_map, circulation, wake, seconds, history, dict(wake.counters))
+
+
+def on_relaxation(
+    model: Model,
+    wake: WakeInTrim,
+    x: np.ndarray,
+    inflow_map: np.ndarray,
+    n_harmonics: int,
+    progress: Progress | Silent,
+) -> tuple[_core.TrimProblem, np.ndarray, np.ndarray, list[dict[str, float]]]:
+    """Trim and wake in turn until the pitch controls rest: problem, unknowns, inflow map, history."""
+    history: list[dict[str, float]] = []
     for outer in range(MAX_OUTER):
-        problem = trim_problem(model, inflow_map)
+        problem = trim_problem(model, inflow_map, n_harmonics)
         before = model.pitch_controls(x[:4])
         x = solve(model, problem, x)
         change = float(np.max(np.abs(model.pitch_controls(x[:4]) - before)))
         if outer > 0 and change < CONTROL_TOLERANCE and wake.converged:
-            break
-        inflow_map = wake.converge(problem, x)
+            history[-1]["control_change"] = change
+            return problem, x, inflow_map, history
+        wake.converge(problem, x)
+        inflow_map = wake.inflow_map
         history.append({**wake.last, "control_change": change})
-        progress.advance(1, f"wake {outer + 1}: inflow change {wake.last['inflow_change']:.1e}, controls {change:.1e} rad")
-    else:
-        raise NumericalFailure(
-            f"trim on the free wake did not settle in {MAX_OUTER} passes: controls still move {change:.2e} rad "
-            f"(allowed {CONTROL_TOLERANCE:g}), inflow {wake.last['inflow_change']:.2e} (allowed {chosen.loop_tolerance:g})"
-        )
-    circulation = wake.circulation
-    if isinstance(chosen, TimeMarchingWake) and chosen.retrim:
-        problem, x, inflow_map, circulation = retrim_marching(model, problem, x, wake, progress)
-    return Trim(
-        model, problem, x, inflow_map, circulation, wake, time.perf_counter() - start, history, wake.counters
+        progress.advance(1, f"inflow change {wake.last['inflow_change']:.1e}, controls {change:.1e} rad")
+    raise NumericalFailure(
+        f"trim on the free wake did not settle in {MAX_OUTER} passes: pitch controls still move {change:.2e} rad "
+        f"(allowed {CONTROL_TOLERANCE:g}), inflow {wake.last['inflow_change']:.2e} of the tip speed "
+        f"(allowed {model.inflow.inflow_tolerance:g})"
     )
 
 
-def trim_problem(model: Model, inflow_map: np.ndarray | None) -> _core.TrimProblem:
+def convention(condition: FlightCondition) -> tuple[str, float]:
+    """What fixes the lateral degree of freedom: bank, sideslip, or the heading where the aircraft hardly moves."""
+    if condition.heading == "free":
+        return "bank", condition.bank
+    if condition.speed < 1.0:
+        return "heading", -condition.sideslip
+    return "sideslip", condition.sideslip
+
+
+def trim_problem(model: Model, inflow_map: np.ndarray | None, n_harmonics: int = 8) -> _core.TrimProblem:
     """The trim equations of the model's condition, on a held inflow map or with dynamic inflow."""
-    c, d = model.condition, model.aircraft.discretisation
-    kind, angle = c.convention
-    n_harmonics = d.n_harmonics
+    c = model.condition
+    kind, angle = convention(c)
     n_azimuths = model.steps_per_revolution if inflow_map is None else inflow_map.shape[0]
     mean = 0.0
     if inflow_map is not None:
@@ -230,14 +254,13 @@ def first_guess(model: Model, problem: _core.TrimProblem) -> np.ndarray:
     """Sticks at mid travel, level attitude, momentum inflow, three degrees of coning and of lag."""
     modes, inflow, tail = model.core.trim_layout(problem)
     x = np.zeros(modes[-1])
-    travel = np.asarray(model.aircraft.stick_travel)
-    x[:4] = 0.5 * travel
+    x[:4] = 0.5 * INCH * np.asarray(model.aircraft.stick_travel_in)
     x[5] = np.radians(2.0)
-    kind, angle = model.condition.convention
+    kind, angle = convention(model.condition)
     if kind == "sideslip":
         x[6] = -angle
     area = np.pi * model.rotor["radius"] ** 2
-    ct = model.condition.gross_mass * 9.80665 / (model.density * area * model.tip_speed**2)
+    ct = model.condition.gross_mass * STANDARD_GRAVITY / (model.density * area * model.tip_speed**2)
     mu = model.condition.speed / model.tip_speed
     lambda_0 = np.sqrt(ct / 2)
     for _ in range(50):
@@ -342,18 +365,23 @@ def trim_inputs(start: Trim, t: float) -> _core.Inputs:
     return _core.Inputs(start.x[:4], np.zeros(4), 0.0, start.inflow_map[rows], mean, start.stabilator_incidence)
 
 
-def retrim_marching(
-    model: Model, problem: _core.TrimProblem, x: np.ndarray, wake: WakeInTrim, progress: Progress
+def on_marching(
+    model: Model,
+    problem: _core.TrimProblem,
+    x: np.ndarray,
+    wake: WakeInTrim,
+    n_harmonics: int,
+    progress: Progress | Silent,
 ) -> tuple[_core.TrimProblem, np.ndarray, np.ndarray, np.ndarray]:
-    """Trim on the time-marching wake: march a revolution on frozen motion, re-trim on its inflow, until controls rest."""
-    march = wake.marching()
+    """Trim on the time-marching wake: march a revolution at the trimmed motion, trim on its inflow, until controls rest."""
+    march = wake.marching(model)
     for revolution in range(60):
         inflow_map, circulation = marching_map(march, problem, x)
         before = model.pitch_controls(x[:4])
-        problem = trim_problem(model, inflow_map)
+        problem = trim_problem(model, inflow_map, n_harmonics)
         x = solve(model, problem, x)
         change = float(np.max(np.abs(model.pitch_controls(x[:4]) - before)))
-        progress.advance(1, f"marching revolution {revolution + 1}: controls {change:.1e} rad")
+        progress.advance(1, f"marching wake: controls {change:.1e} rad")
         if revolution > 2 and change < 0.1 * CONTROL_TOLERANCE:
             return problem, x, inflow_map, circulation
     raise NumericalFailure(f"trim on the time-marching wake did not settle: controls still move {change:.2e} rad")

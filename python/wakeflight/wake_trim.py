@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """The free wake in trim: inflow and circulation brought into agreement at the trimmed motion.
 
 Circulation and near wake are solved together at every azimuth; the inflow of everything else is relaxed:
@@ -13,6 +14,9 @@ import numpy as np
 from . import _core
 from .exchange import MarchingExchange
 from .model import Model
+
+FIRST_TURN_TOLERANCE = 1e-3
+"""Change of the first turn's geometry over R in a sweep below which it counts as settled."""
 
 
 class WakeInTrim:
@@ -36,7 +40,7 @@ class WakeInTrim:
         core = self.model.core
         q, q_dot = core.trim_motion(problem, x, self.n)
         y, _ = core.trim_state(problem, x, 0.0)
-        self.converge_motion(y, x[:4], q, q_dot, self.model.inflow.max_loop_trim)
+        self.converge_motion(y, x[:4], q, q_dot, self.model.inflow.max_loops)
         return self.inflow_map
 
     def converge_motion(
@@ -70,14 +74,14 @@ class WakeInTrim:
             self.last = {
                 "inflow_change": rms,
                 "thrust_change": thrust_change,
-                "geometry_change": float(norms[-1][0]),
-                "first_turn_change": float(norms[-1][1]),
+                "geometry_change": float(norms[-1, 0]),
+                "first_turn_change": float(norms[-1, 1]),
                 "iterations": iteration + 1,
             }
             if (
-                rms < options.loop_tolerance
+                rms < options.inflow_tolerance
                 and thrust_change < 1e-3
-                and self.last["first_turn_change"] < options.first_turn_tolerance
+                and self.last["first_turn_change"] < FIRST_TURN_TOLERANCE
             ):
                 self.converged = True
                 break
@@ -107,9 +111,9 @@ class WakeInTrim:
         widths = np.asarray(self.model.rotor["widths"])
         return float(np.mean(self.circulation @ (self.model.stations * widths)))
 
-    def marching(self) -> MarchingExchange:
-        """A time-marching wake started from this one."""
-        return MarchingExchange(self.model, self)
+    def marching(self, model: Model) -> MarchingExchange:
+        """A time-marching wake of `model` started from this one."""
+        return MarchingExchange(model, self)
 
 
 def marching_map(march: MarchingExchange, problem: Any, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

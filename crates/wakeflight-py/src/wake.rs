@@ -192,11 +192,13 @@ struct TimeMarchingWake {
 
 #[pymethods]
 impl TimeMarchingWake {
-    /// Starts from a periodic wake with blade 1 at row `azimuth_index`.
+    /// Starts from a periodic wake with blade 1 at row `azimuth_index`, with the scheme of `options_json`.
     #[staticmethod]
-    fn from_relaxation(relaxation: &RelaxationWake, azimuth_index: usize) -> PyResult<Self> {
-        let inner =
+    fn from_relaxation(relaxation: &RelaxationWake, azimuth_index: usize, options_json: &str) -> PyResult<Self> {
+        let options = parse_options(options_json)?;
+        let mut inner =
             wake::TimeMarchingWake::from_relaxation(&relaxation.inner, azimuth_index).map_err(py_error)?;
+        inner.set_scheme(options.scheme, options.predictor, options.time_filter).map_err(py_error)?;
         Ok(Self { inner })
     }
 

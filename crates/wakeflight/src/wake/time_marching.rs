@@ -96,6 +96,14 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
         })
     }
 
+    /// Replaces the scheme of the options that the wake was started with.
+    pub fn set_scheme(&mut self, scheme: Scheme, predictor: Predictor, time_filter: f64) -> Result<(), WakeError> {
+        let options = WakeOptions { scheme, predictor, time_filter, ..self.options.clone() };
+        options.validate()?;
+        self.options = options;
+        Ok(())
+    }
+
     /// Advances by one step of azimuth to the given hub motion, blades (n_blades) and bound circulation
     /// (n_blades, n_stations) [m2/s]. On an error the wake is unchanged.
     pub fn step(

@@ -1,0 +1,305 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""Flight: a manoeuvre flown from a trim, wake and flight dynamics taking turns [ribera2004, Fig. 2].
+
+1. Trim with the relaxation wake (`trim.py`). 2. Convergence phase: states and controls frozen, the time-marching wake
+advanced. 3. The wake gives the inflow at every blade station, held while the solver integrates F(y_dot, y, u; t) = 0 over
+one step of azimuth; states, circulation and hub motion go to the wake; the wake advances by one step.
+"""
+
+from __future__ import annotations
+
+import copy
+import time
+from dataclasses import dataclass, field, fields
+from pathlib import Path
+from typing import TYPE_CHECKING, Protocol
+
+import numpy as np
+
+from . import _core
+from .errors import InputError, NumericalFailure
+from .exchange import MarchingExchange, RelaxationExchange
+from .inflow import DynamicInflow, InflowModel, RelaxationWake, TimeMarchingWake, inflow_model, trim_model
+from .integrators import IdaIntegrator, consistent_rate
+from .maneuvers import Maneuver
+from .model import Model
+from .progress import Progress, Silent
+from .recorder import Recorder
+from .trim import INCH, Trim
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+@dataclass(frozen=True)
+class Flight:
+    """A flown manoeuvre: `data` is its Dataset; a flight that stopped early says why in `failure`."""
+
+    start: Trim
+    maneuver: Maneuver
+    data: xr.Dataset
+    warnings: tuple[str, ...] = ()
+    failure: str | None = None
+
+    @property
+    def finished(self) -> bool:
+        """Whether the flight reached its end."""
+        return self.failure is None
+
+    def save(self, path: str | Path) -> Path:
+        """Write the Dataset as NetCDF-4."""
+        from .results import save
+
+        return save(self.data, path)
+
+    def citation(self) -> str:
+        """BibTeX of everything the run used."""
+        from .references import bibtex
+
+        keys = {*self.start.aircraft.references, *self.start.inflow.references, *self.maneuver.references, "ribera2004"}
+        return bibtex(sorted(keys))
+
+
+class Sticks:
+    """The pilot's sticks [m] about trim."""
+
+    def __init__(self, maneuver: Maneuver, trim_si: np.ndarray):
+        self.maneuver = maneuver
+        self.trim_in = trim_si / INCH
+        self.corners = np.asarray(maneuver.corners())
+
+    def at(self, t: float) -> np.ndarray:
+        """Positions (4,) [m from the stop] at time `t` [s]."""
+        return INCH * self.maneuver.stick(t, self.trim_in)
+
+    def rate(self, t: float) -> np.ndarray:
+        """Rates (4,) [m/s] just after time `t` [s]."""
+        return INCH * self.maneuver.rate(t)
+
+    def pieces(self, t0: float, t1: float) -> list[tuple[float, float]]:
+        """The interval t0..t1 cut at the corners of the history."""
+        inner = self.corners[(self.corners > t0 + 1e-9) & (self.corners < t1 - 1e-9)]
+        ends = [t0, *inner.tolist(), t1]
+        return list(zip(ends[:-1], ends[1:], strict=True))
+
+
+class InflowSource(Protocol):
+    """One of the three inflow models in flight."""
+
+    def held(self, step: int) -> tuple[np.ndarray | None, float]:
+        """Inflow held over the step that begins (None: the states of y) and its disk mean."""
+
+    def exchange(self, step: int, y: np.ndarray, stick: np.ndarray, stick_rate: np.ndarray) -> None:
+        """States have reached `step`: give them to the wake and let it answer."""
+
+
+class DynamicSource:
+    """Dynamic inflow: in the state, nothing to exchange."""
+
+    def held(self, step: int) -> tuple[np.ndarray | None, float]:
+        """Nothing is held: the inflow is in y."""
+        return None, 0.0
+
+    def exchange(self, step: int, y: np.ndarray, stick: np.ndarray, stick_rate: np.ndarray) -> None:
+        """Nothing to do."""
+
+
+class MarchingSource:
+    """Time-marching wake: inflow anew at every step."""
+
+    def __init__(self, exchange: MarchingExchange):
+        self.wake = exchange
+
+    def held(self, step: int) -> tuple[np.ndarray, float]:
+        """Total inflow at the stations, and its disk mean."""
+        return self.wake.inflow, self.wake.model.disk_mean(self.wake.inflow)
+
+    def exchange(self, step: int, y: np.ndarray, stick: np.ndarray, stick_rate: np.ndarray) -> None:
+        """Advance the wake by the step just flown."""
+        q, q_dot = self.wake.model.modal(y)
+        self.wake.advance(y, stick, stick_rate, q, q_dot)
+
+
+class RelaxationSource:
+    """Relaxation wake: inflow by azimuth, renewed every revolution."""
+
+    def __init__(self, exchange: RelaxationExchange):
+        self.wake = exchange
+
+    def held(self, step: int) -> tuple[np.ndarray, float]:
+        """Inflow of the frozen map over the step, and the map's disk mean."""
+        return self.wake.inflow(step), self.wake.model.disk_mean(self.wake.inflow_map)
+
+    def exchange(self, step: int, y: np.ndarray, stick: np.ndarray, stick_rate: np.ndarray) -> None:
+        """Remember the blades' motion; at the end of a revolution renew the map."""
+        self.wake.remember(step, *self.wake.model.modal(y))
+        if step % self.wake.n == 0:
+            self.wake.renew(y, stick)
+
+
+@dataclass
+class ConvergencePhase:
+    """What the convergence phase left: change of inflow per revolution over its mean, thrust, maps before and after."""
+
+    change: list[float] = field(default_factory=list)
+    circulation_lift: list[float] = field(default_factory=list)
+    before: np.ndarray | None = None
+    after: np.ndarray | None = None
+    seconds: float = 0.0
+
+
+def fly(
+    start: Trim,
+    maneuver: Maneuver,
+    inflow: str | InflowModel | None = None,
+    revolutions: float | None = None,
+    integrator: str = "ida",
+    progress: Progress | Silent | None = None,
+    rtol: float = 1e-5,
+) -> Flight:
+    """Fly `maneuver` from `start`.
+
+    inflow: name or model, by default time-marching from a trim on a free wake, dynamic from a dynamic one. revolutions:
+    flown ones, by default the manoeuvre's. A numerical failure raises `NumericalFailure` whose `partial` is the Flight so far.
+    """
+    progress = progress or Silent()
+    begun = time.perf_counter()
+    model = flight_model(start, inflow)
+    if integrator != "ida":
+        raise InputError.of("integrator", integrator, "allowed: ida (fixed is not in this version yet)")
+    n_steps = flown_steps(model, maneuver, revolutions)
+    sticks = Sticks(maneuver, start.stick_si)
+    travel = start.aircraft.stick_travel_in
+    warnings = maneuver.check_travel(sticks.trim_in, travel, None, start.aircraft.stick_rate_limit_in)
+    for text in warnings:
+        progress(f"warning: {text}")
+
+    source, phase = inflow_source(model, start, progress)
+    solver = IdaIntegrator(model, rtol)
+    recorder = Recorder(model, start, maneuver, source, n_steps)
+    seconds = {"wake": 0.0, "dynamics": 0.0}
+    delta_t = 2 * np.pi / model.omega / model.steps_per_revolution
+    progress.phase("flight", n_steps / model.steps_per_revolution)
+    y, failure = start.state(0.0), None
+    try:
+        for step in range(n_steps):
+            t = step * delta_t
+            held, mean = source.held(step)
+            inputs = coupling_inputs(start, sticks, t, held, mean)
+            y_dot = consistent_rate(model, t, y, inputs)
+            recorder.record(step, t, y, y_dot, inputs, sticks.at(t), mean)
+
+            clock = time.perf_counter()
+            if step == 0:
+                solver.start(t, y, y_dot)
+            for t0, t1 in sticks.pieces(t, (step + 1) * delta_t):
+                solver.advance_to(t1, coupling_inputs(start, sticks, t0, held, mean))
+            y = solver.state
+            clock_wake = time.perf_counter()
+            seconds["dynamics"] += clock_wake - clock
+
+            t = (step + 1) * delta_t
+            source.exchange(step + 1, y, sticks.at(t), sticks.rate(t))
+            seconds["wake"] += time.perf_counter() - clock_wake
+            progress.advance(1 / model.steps_per_revolution, f"t = {t:.2f} s")
+        t = n_steps * delta_t
+        held, mean = source.held(n_steps)
+        inputs = coupling_inputs(start, sticks, t, held, mean)
+        recorder.record(n_steps, t, y, consistent_rate(model, t, y, inputs), inputs, sticks.at(t), mean)
+    except (NumericalFailure, ArithmeticError, np.linalg.LinAlgError) as reason:
+        revolution = (recorder.n_recorded - 1) / model.steps_per_revolution
+        failure = f"flight of {maneuver.name} stopped in revolution {revolution:.2f}: {reason}"
+
+    attributes = {
+        "seconds_trim": start.seconds,
+        "seconds_convergence": phase.seconds,
+        "seconds_wake": seconds["wake"],
+        "seconds_dynamics": seconds["dynamics"],
+        "seconds_total": start.seconds + time.perf_counter() - begun,
+        **solver.statistics,
+    }
+    data = recorder.dataset(attributes, phase, warnings, failure)
+    flight = Flight(start, maneuver, data, tuple(warnings), failure)
+    if failure is not None:
+        raise NumericalFailure(failure, partial=flight)
+    return flight
+
+
+def flight_model(start: Trim, inflow: str | InflowModel | None) -> Model:
+    """Model to fly with; it must belong to what the trim was made with."""
+    if inflow is None:
+        inflow = "dynamic" if isinstance(start.inflow, DynamicInflow) else "time-marching"
+    trimmed = start.inflow
+    chosen = inflow_model(inflow)
+    if isinstance(chosen, DynamicInflow) != isinstance(trimmed, DynamicInflow):
+        needed = "dynamic" if isinstance(chosen, DynamicInflow) else "relaxation"
+        raise InputError.of("inflow", chosen.name, f"needs a trim with inflow='{needed}', this one used {trimmed.name}")
+    if isinstance(chosen, DynamicInflow):
+        return start.model
+    if isinstance(inflow, str) and not isinstance(trimmed, type(chosen)):
+        common = {f.name: getattr(trimmed, f.name) for f in fields(chosen) if hasattr(trimmed, f.name)}
+        chosen = type(chosen)(**common)
+    elif isinstance(inflow, str):
+        chosen = trimmed
+    before, now = trim_model(trimmed).core_options(start.aircraft), chosen.core_options(start.aircraft)
+    for name in sorted(set(now) - {"scheme", "predictor", "time_filter", "relaxation"}):
+        if before[name] != now[name]:
+            raise InputError.of(name, now[name], f"must be that of the trim, {before[name]}: trim again with this inflow model")
+    return Model.build(start.aircraft, start.condition, chosen)
+
+
+def flown_steps(model: Model, maneuver: Maneuver, revolutions: float | None) -> int:
+    """Coupling steps of the flight."""
+    if revolutions is None:
+        revolutions = maneuver.duration_revolutions(model.omega)
+    if not 0 < revolutions <= 10000:
+        raise InputError.of("revolutions", revolutions, "must lie above 0 and at most 10000")
+    return max(1, round(revolutions * model.steps_per_revolution))
+
+
+def coupling_inputs(start: Trim, sticks: Sticks, t: float, held: np.ndarray | None, mean: float) -> _core.Inputs:
+    """Sticks from `t` on, inflow held, stabilator at its trim incidence."""
+    return _core.Inputs(sticks.at(t), sticks.rate(t), t, held, mean, start.stabilator_incidence)
+
+
+def inflow_source(model: Model, start: Trim, progress: Progress | Silent) -> tuple[InflowSource, ConvergencePhase]:
+    """The inflow model at the start of the flight; the time-marching wake after its convergence phase."""
+    if isinstance(model.inflow, DynamicInflow):
+        return DynamicSource(), ConvergencePhase()
+    if isinstance(model.inflow, RelaxationWake):
+        relaxed = RelaxationExchange(model, copy.copy(start.wake))
+        q, q_dot = model.core.trim_motion(start.problem, start.x, relaxed.n)
+        relaxed.trimmed.relaxation = start.wake.relaxation.copy()
+        relaxed.trimmed.counters = dict.fromkeys(start.wake.counters, 0)
+        for step in range(relaxed.n):
+            relaxed.remember(step, q[relaxed.rows(step)], q_dot[relaxed.rows(step)])
+        return RelaxationSource(relaxed), ConvergencePhase()
+    assert isinstance(model.inflow, TimeMarchingWake)
+    marching = MarchingExchange(model, start.wake)
+    return MarchingSource(marching), converge(marching, start, progress)
+
+
+def converge(marching: MarchingExchange, start: Trim, progress: Progress | Silent) -> ConvergencePhase:
+    """Advance the wake at frozen states and controls; the circulation follows the inflow."""
+    model = marching.model
+    revolutions = model.inflow.convergence_revolutions
+    phase = ConvergencePhase(before=start.inflow_map)
+    clock = time.perf_counter()
+    progress.phase("convergence of the wake", revolutions)
+    previous = start.inflow_map
+    widths = np.asarray(model.rotor["widths"])
+    for _ in range(revolutions):
+        records = [marching.frozen_step(start.problem, start.x) for _ in range(model.steps_per_revolution)]
+        inflow_map, circulation = marching.periodic_map(records)
+        if not np.all(np.isfinite(inflow_map)):
+            raise NumericalFailure("convergence phase of the wake left the finite numbers")
+        change = np.sqrt(np.mean((inflow_map - previous) ** 2 @ model.area_weights)) / abs(model.disk_mean(inflow_map))
+        phase.change.append(float(change))
+        phase.circulation_lift.append(float(np.mean(circulation @ (model.stations * widths))))
+        if phase.after is None:
+            phase.before = inflow_map
+        phase.after = previous = inflow_map
+        progress.advance(1, f"inflow changes by {change:.1e} of its mean")
+    marching.step_index = 0
+    phase.seconds = time.perf_counter() - clock
+    return phase

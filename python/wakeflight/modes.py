@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""Natural modes of the rotating blade."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+
+import numpy as np
+
+from . import _core
+from .aircraft import Aircraft
+from .errors import InputError
+
+
+@dataclass(frozen=True)
+class BladeModes:
+    """Modes of a blade, ascending in frequency; shapes normalised to a largest tip deflection of one (m/m or rad)."""
+
+    frequencies: np.ndarray  # (n_modes,) [1/rev]
+    shares: np.ndarray  # (n_modes, 3), kinetic energy in flap, lag, torsion
+    radius: np.ndarray  # (n,) [m]
+    shapes: dict[str, np.ndarray]  # "flap", "lead" [m], "twist" [rad]: (n_modes, n)
+    omega: float  # [rad/s]
+    reference_pitch: float  # [rad]
+
+    @property
+    def labels(self) -> list[str]:
+        """What each mode mostly is, counted by kind: lag 1, flap 1, flap 2 ..."""
+        counted: dict[str, int] = {}
+        names = []
+        for share in self.shares:
+            kind = ("flap", "lag", "torsion")[int(np.argmax(share))]
+            counted[kind] = counted.get(kind, 0) + 1
+            names.append(f"{kind} {counted[kind]}")
+        return names
+
+    @property
+    def has_torsion(self) -> bool:
+        """Whether a mode kept is mostly torsion."""
+        return bool(np.any(self.shares[:, 2] > 0.5))
+
+    def table(self) -> str:
+        """Frequencies and content, one mode a line."""
+        lines = ["mode  frequency [1/rev]   flap    lag  torsion  mostly"]
+        for i, (f, s, label) in enumerate(zip(self.frequencies, self.shares, self.labels, strict=True), start=1):
+            lines.append(f"{i:4d}  {f:17.4f}  {s[0]:5.1%}  {s[1]:5.1%}  {s[2]:7.1%}  {label}")
+        if not self.has_torsion:
+            lines.append("warning: no mode kept is mostly torsion: keep more modes")
+        return "\n".join(lines)
+
+
+def blade_modes(
+    aircraft: Aircraft,
+    n_modes: int | None = None,
+    n_elements: int | None = None,
+    rotor_speed: float | None = None,
+    reference_pitch: float | None = None,
+) -> BladeModes:
+    """Modes of the aircraft's blade at a rotor speed [rad/s] (default nominal) and root pitch [rad] (default mid collective)."""
+    d = aircraft.discretisation
+    n_modes = d.n_modes if n_modes is None else n_modes
+    n_elements = max(d.n_elements, -(-n_modes // 5)) if n_elements is None else n_elements
+    omega = float(aircraft.rotor.omega) if rotor_speed is None else rotor_speed
+    pitch = d.reference_pitch if reference_pitch is None else reference_pitch
+    if not isinstance(n_modes, int) or n_modes < 1:
+        raise InputError.of("n_modes", n_modes, "must be a whole number above 0")
+    blade = aircraft.core_data()["rotor"]["blade"]
+    try:
+        core = _core.BladeModes(json.dumps(blade), omega, pitch, n_elements, n_modes)
+    except ValueError as reason:
+        raise InputError(f"{aircraft.path}: {reason}") from None
+    radius = np.linspace(blade["root_station"], blade["radius"], 201)
+    raw = core.shapes(radius)
+    tip = np.maximum(np.abs(raw["v"][:, -1]), np.abs(raw["w"][:, -1]))
+    scale = np.where(np.asarray(core.energy_shares)[:, 2] > 0.5, np.abs(raw["phi"][:, -1]), tip)
+    shapes = {name: raw[key] / scale[:, None] for name, key in (("flap", "w"), ("lead", "v"), ("twist", "phi"))}
+    return BladeModes(
+        np.asarray(core.frequencies_per_rev), np.asarray(core.energy_shares), radius, shapes, omega, pitch
+    )

@@ -1,0 +1,196 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""What a flight keeps of every step, and the Dataset it becomes."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from . import _core
+from .inflow import DynamicInflow
+from .maneuvers import Maneuver
+from .model import Model
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from .flight import ConvergencePhase, InflowSource
+    from .trim import Trim
+
+SNAPSHOTS_PER_REVOLUTION = 4
+STATION_FIELDS = ("inflow", "circulation", "cl", "cl_m2", "alpha", "mach")
+
+
+class Recorder:
+    """Arrays of a run, filled step by step."""
+
+    def __init__(self, model: Model, start: Trim, maneuver: Maneuver, source: InflowSource, n_steps: int):
+        self.model, self.start, self.maneuver, self.source = model, start, maneuver, source
+        self.n_recorded = 0
+        n, blades, stations = n_steps + 1, model.n_blades, model.stations.size
+        self.time = np.empty(n)
+        self.state = np.empty((n, model.layout["size"]))
+        self.stick = np.empty((n, 4))
+        self.blade = {name: np.empty((n, blades, stations)) for name in STATION_FIELDS}
+        self.azimuth = np.empty((n, blades))
+        self.loads = {name: np.empty((n, 3)) for name in ("force", "moment", "hub_force", "hub_moment")}
+        self.scalars = {
+            name: np.empty(n) for name in ("ct", "beta_1c", "beta_1s", "power", "inflow_mean", "odd_even", "max_displacement")
+        }
+        self.snapshots: list[np.ndarray] = []
+        self.snapshot_revolution: list[float] = []
+
+    def record(
+        self,
+        step: int,
+        t: float,
+        y: np.ndarray,
+        y_dot: np.ndarray,
+        inputs: _core.Inputs,
+        stick: np.ndarray,
+        mean_inflow: float,
+    ) -> None:
+        """Keep one instant: the state, its consistent rate, and the inputs that begin there."""
+        out = self.model.core.outputs(t, y, y_dot, inputs)
+        self.time[step], self.state[step], self.stick[step] = t, y, stick
+        self.azimuth[step] = out["azimuth"]
+        for name, values in self.blade.items():
+            values[step] = out[name]
+        for name, values in self.loads.items():
+            values[step] = out[name]
+        for name in ("ct", "beta_1c", "beta_1s"):
+            self.scalars[name][step] = out[name]
+        self.scalars["power"][step] = sum(out["power"])
+        dynamic = isinstance(self.model.inflow, DynamicInflow)
+        first = self.model.layout["inflow"][0]
+        self.scalars["inflow_mean"][step] = y[first] if dynamic else mean_inflow
+        wake = getattr(self.source, "wake", None)
+        monitors = getattr(wake, "monitors", {})
+        self.scalars["odd_even"][step] = monitors.get("odd_even", 0.0)
+        self.scalars["max_displacement"][step] = monitors.get("max_displacement", 0.0)
+        if wake is not None and step % (self.model.steps_per_revolution // SNAPSHOTS_PER_REVOLUTION) == 0:
+            self.snapshots.append(position_of(wake, step))
+            self.snapshot_revolution.append(step / self.model.steps_per_revolution)
+        # a row counts only when it is finite: what cannot be kept ends the flight
+        if not np.all(np.isfinite(self.state[step])) or not np.all(np.isfinite(self.loads["force"][step])):
+            raise ArithmeticError(f"loads are not finite at t = {t:.4f} s")
+        self.n_recorded = step + 1
+
+    def dataset(
+        self, attributes: dict[str, Any], phase: ConvergencePhase, warnings: list[str], failure: str | None
+    ) -> xr.Dataset:
+        """The run's Dataset, whole or up to where it stopped."""
+        from .results import assemble
+
+        model, n = self.model, self.n_recorded
+        y = self.state[:n]
+        roll, pitch, yaw = euler_angles(y[:, 6:10])
+        arrays: dict[str, Any] = {
+            "time": self.time[:n],
+            "station": model.stations / model.rotor["radius"],
+            "roll": roll,
+            "pitch": pitch,
+            "yaw": yaw,
+            "azimuth": self.azimuth[:n],
+            "modal": self._modal(y),
+            "hub_force": self.loads["hub_force"][:n],
+            "hub_moment": self.loads["hub_moment"][:n],
+            "stabilator": np.full(n, self.start.stabilator_incidence),
+        }
+        arrays |= dict(zip("uvwpqr", y[:, :6].T, strict=True))
+        arrays |= dict(zip(("north", "east", "down"), y[:, 10:13].T, strict=True))
+        names = ("lateral", "longitudinal", "collective", "pedal")
+        arrays |= dict(zip(names, self.stick[:n].T / 0.0254, strict=True))
+        for kind in ("force", "moment"):
+            arrays |= dict(zip((f"{kind}_x", f"{kind}_y", f"{kind}_z"), self.loads[kind][:n].T, strict=True))
+        arrays |= {name: values[:n] for name, values in self.blade.items()}
+        arrays |= {name: values[:n] for name, values in self.scalars.items()}
+        if not isinstance(model.inflow, DynamicInflow):
+            arrays |= self._wake_arrays(phase)
+        counted = self._counters()
+        return assemble(arrays, {**self._describe(), **attributes, **counted, **convergence_attributes(phase),
+                                 "warnings": "; ".join(warnings), "failure": failure or ""})
+
+    def _modal(self, y: np.ndarray) -> np.ndarray:
+        """Modal coordinates (time, blade, mode) as fractions of the tip deflection: angle of the tip in the mode [rad]."""
+        scale = np.asarray(self.model.rotor["angle_per_coordinate"])
+        blades = [y[:, a:b] * scale for a, b in self.model.layout["modal"]]
+        return np.stack(blades, axis=1)
+
+    def _wake_arrays(self, phase: ConvergencePhase) -> dict[str, Any]:
+        arrays: dict[str, Any] = {}
+        if self.snapshots:
+            positions = np.array(self.snapshots)
+            arrays["wake"] = positions
+            arrays["snapshot_revolution"] = np.array(self.snapshot_revolution)
+            arrays["age"] = 2 * np.pi * np.arange(positions.shape[2]) / self.model.steps_per_revolution
+        n = self.model.steps_per_revolution
+        arrays["psi"] = 2 * np.pi * np.arange(n) / n
+        arrays["inflow_trim"] = self.start.inflow_map
+        if phase.after is not None:
+            arrays["inflow_before"], arrays["inflow_start"] = phase.before, phase.after
+        return arrays
+
+    def _counters(self) -> dict[str, int]:
+        wake = getattr(self.source, "wake", None)
+        if wake is None:
+            return {}
+        counters = {"segment_evaluations": wake.segment_evaluations}
+        if hasattr(wake, "unconverged"):
+            counters["unconverged_revolutions"] = wake.unconverged
+            counters["relaxation_updates"] = wake.updates
+            counters["relaxation_iterations"] = wake.trimmed.counters["relaxation_iterations"]
+        else:
+            counters["circulation_not_converged"] = wake.circulation_not_converged
+        return counters
+
+    def _describe(self) -> dict[str, Any]:
+        start, model = self.start, self.model
+        mean = start.mean_outputs()
+        configuration = {
+            "aircraft": start.aircraft.name,
+            "loading": start.aircraft.loading_name or "",
+            "condition": start.condition.as_attributes(),
+            "inflow": {"model": model.inflow.name, **model.inflow.as_attributes()},
+            "discretisation": start.aircraft.discretisation._asdict(),
+            "trim_inflow": start.inflow.name,
+        }
+        return {
+            "aircraft": start.aircraft.name,
+            "maneuver": self.maneuver.name,
+            "inflow_model": model.inflow.name,
+            "radius": model.rotor["radius"],
+            "omega": model.omega,
+            "configuration": configuration,
+            "condition": start.condition.as_attributes(),
+            "ct": mean["ct"],
+            "ct_sigma": mean["ct"] / start.aircraft.solidity,
+            "mu": mean["mu"],
+            "power": mean["power"],
+            "revolutions": (self.n_recorded - 1) / model.steps_per_revolution,
+        }
+
+
+def position_of(wake: Any, step: int) -> np.ndarray:
+    """Tip vortices of either free wake (n_blades, n_ages, 3) [m]."""
+    return wake.position(step) if hasattr(wake, "updates") else wake.position()
+
+
+def convergence_attributes(phase: ConvergencePhase) -> dict[str, Any]:
+    """Figures of the convergence phase: change per revolution, drift of the lift."""
+    if not phase.change:
+        return {}
+    return {
+        "convergence_change": [round(c, 12) for c in phase.change],
+        "convergence_lift_drift": phase.circulation_lift[-1] / phase.circulation_lift[0] - 1.0,
+    }
+
+
+def euler_angles(quaternion: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Roll, pitch, yaw (3-2-1) [rad] of quaternions (n, 4), body to inertial; roll and yaw without jumps."""
+    w, x, y, z = (quaternion / np.linalg.norm(quaternion, axis=1, keepdims=True)).T
+    roll = np.arctan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y))
+    pitch = np.arcsin(np.clip(2 * (w * y - z * x), -1, 1))
+    yaw = np.arctan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
+    return np.unwrap(roll), pitch, np.unwrap(yaw)
