@@ -58,15 +58,30 @@ fn verif_central_marching_reaches_the_relaxed_wake() {
     assert!(difference < 0.005);
 }
 
-#[test]
-fn verif_backward_marching_settles_near_the_relaxed_wake() {
-    let (map, reference, change, _, grid) = march(&level_options(), 12);
+/// Backward scheme against relaxation: RMS of the difference of inflow and drift of its mean, over the mean.
+fn backward_difference(options: &WakeOptions, revolutions: usize) -> (f64, f64, f64) {
+    let (map, reference, change, _, grid) = march(options, revolutions);
     let mean = harmonics(&grid, &reference)[0];
     let rms = disk_rms(&grid, &difference(&map, &reference)) / mean;
     let drift = harmonics(&grid, &map)[0] / mean - 1.0;
     println!("disk RMS of the difference over the mean {rms}, of the mean {drift}");
+    (rms, drift, change)
+}
+
+#[test]
+fn verif_backward_marching_settles_near_the_relaxed_wake() {
+    // the old end settles last: with a core of 0.05 R the change falls by 2 to 3 in a revolution
+    let (rms, drift, change) = backward_difference(&WakeOptions { core_radius: 0.05, ..level_options() }, 15);
     assert!(rms < 0.15 && drift.abs() < 0.03);
     assert!(change < 1e-5);
+}
+
+#[test]
+#[ignore = "half a minute: five degrees"]
+fn verif_backward_marching_nears_the_relaxed_wake_with_smaller_steps() {
+    let options = WakeOptions { core_radius: 0.05, steps_per_revolution: 72, ..level_options() };
+    let (rms, drift, _) = backward_difference(&options, 12);
+    assert!(rms < 0.10 && drift.abs() < 0.03);
 }
 
 #[test]
@@ -218,4 +233,27 @@ mod inertial {
         println!("rates reversed {wrong}");
         assert!(wrong > 50.0 * found[1]);
     }
+}
+
+#[test]
+fn verif_the_marched_sheet_stays_the_periodic_one() {
+    // steady flight: the carried registers of the inboard sheet are the rigid helices of the periodic wake
+    let options = WakeOptions {
+        inboard_wake: wakeflight::wake::InboardWake::Sheet,
+        tip_strength: wakeflight::wake::TipStrength::Max,
+        turns: 1.0,
+        ..level_options()
+    };
+    let start = relaxation(&options, level_hub(), CT, momentum_inflow(CT, MU, CLIMB));
+    let mut wake = TimeMarchingWake::from_relaxation(&start, 0).unwrap();
+    revolution(&mut wake, level_hub(), CT, 0);
+    revolution(&mut wake, level_hub(), CT, 36);
+    let (marched, periodic) = (&wake.instant().sheet, &start.instant(72).sheet);
+    assert_eq!(marched.n_filaments, 16);
+    assert!(distance(&marched.position, &periodic.position) < 1e-13);
+    assert_eq!(marched.circulation, periodic.circulation);
+    // the sheet gives back what the tip vortices carry
+    let total: f64 = (0..16).map(|i| marched.circulation[marched.marker(i, 0)]).sum();
+    let tip: f64 = (0..4).map(|b| wake.marker_circulation()[b * 37]).sum();
+    assert!((total + tip).abs() < 1e-10 * tip.abs());
 }

@@ -126,3 +126,71 @@ pub fn solve_circulation(
         iterations,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::wake::near_wake::near_wake_matrix;
+    use crate::wake::options::{BladeState, HubMotion, WakeOptions};
+
+    fn rotor() -> (WakeOptions, Vec<f64>) {
+        let options = WakeOptions::new(4, 8.0, 1.5, 0.4, 0.5, 27.0);
+        let matrix = near_wake_matrix(&options, &HubMotion::default(), &BladeState::default()).unwrap();
+        (options, matrix)
+    }
+
+    #[test]
+    fn thin_sections_are_solved_in_one_step() {
+        // Gamma = k (alpha0 - lambda): linear, (1 + k N) Gamma = k (alpha0 - lambda_far)
+        let (options, matrix) = rotor();
+        let n = options.n_stations;
+        let slope = 2.9 * options.chord * options.tip_speed();
+        let far = vec![0.05; n];
+        let section = |lambda: &[f64], gamma: &mut [f64], derivative: &mut [f64]| {
+            for i in 0..n {
+                gamma[i] = slope * (0.12 - lambda[i]);
+                derivative[i] = -slope;
+            }
+        };
+        let floor = vec![-3.0 * options.chord * options.tip_speed(); n];
+        let solution = solve_circulation(&far, &matrix, section, &vec![0.0; n], &floor, 1e-9).unwrap();
+        assert!(solution.converged && solution.iterations <= 2, "{solution:?}");
+        for i in 0..n {
+            let near: f64 = (0..n).map(|j| matrix[i * n + j] * solution.gamma[j]).sum();
+            assert!((solution.gamma[i] - slope * (0.12 - 0.05 - near)).abs() < 1e-8);
+            assert!((solution.inflow[i] - 0.05 - near).abs() < 1e-12);
+        }
+        // free edges: less circulation toward tip and root than in the middle
+        let crest = solution.gamma.iter().fold(0.0f64, |m, g| m.max(*g));
+        assert!(solution.gamma[n - 1] < 0.5 * crest && solution.gamma[0] < crest);
+    }
+
+    #[test]
+    fn stalled_sections_are_solved() {
+        // lift that breaks and recovers: slopes of the wrong sign are clipped
+        let (options, matrix) = rotor();
+        let n = options.n_stations;
+        let k = options.chord * options.tip_speed();
+        let lift = |a: f64| 5.7 * 0.5 * a / (1.0 + (a / 0.25).powi(4)).sqrt();
+        let section = |lambda: &[f64], gamma: &mut [f64], derivative: &mut [f64]| {
+            for i in 0..n {
+                let alpha = 0.35 - 0.2 * i as f64 / n as f64 - lambda[i];
+                gamma[i] = k * lift(alpha);
+                derivative[i] = -k * (lift(alpha + 1e-6) - lift(alpha - 1e-6)) / 2e-6;
+            }
+        };
+        let solution = solve_circulation(&vec![0.04; n], &matrix, section, &vec![0.0; n], &vec![-3.0 * k; n], 1e-9).unwrap();
+        assert!(solution.converged, "{} after {}", solution.residual, solution.iterations);
+    }
+
+    #[test]
+    fn values_that_are_not_finite_never_travel() {
+        let (options, matrix) = rotor();
+        let n = options.n_stations;
+        let section = |_: &[f64], gamma: &mut [f64], _: &mut [f64]| gamma.fill(f64::NAN);
+        let solution = solve_circulation(&vec![0.0; n], &matrix, section, &vec![1.0; n], &vec![-1.0; n], 1e-9).unwrap();
+        assert!(!solution.converged && solution.residual.is_infinite());
+        assert!(solution.gamma.iter().chain(&solution.inflow).all(|v| v.is_finite()));
+        assert!(solve_circulation(&vec![f64::NAN; n], &matrix, section, &vec![1.0; n], &vec![-1.0; n], 1e-9).is_err());
+    }
+}

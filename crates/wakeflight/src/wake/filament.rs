@@ -73,3 +73,39 @@ pub(crate) fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
     let d = [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
     (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Core radii of a Lamb-Oseen vortex with an eddy viscosity of 8 nu, at ages in degrees.
+    fn grows(radius: f64, omega: f64, r0: f64, rows: [(f64, f64); 4]) {
+        let (alpha, delta, nu) = (1.25643, 8.0, 1.5e-5);
+        let mut options = WakeOptions::new(2, radius, 0.2 * radius, 0.0, 0.1 * radius, omega);
+        options.core_radius = r0 / radius;
+        options.core_growth = 4.0 * alpha * delta * nu / (omega * radius * radius);
+        for (age_deg, expected) in rows {
+            let found = core_radius(&options, f64::to_radians(age_deg));
+            assert!((found - expected).abs() < 1e-7, "{age_deg} deg: {found} {expected}");
+        }
+    }
+
+    #[test]
+    fn verif_cores_grow_by_diffusion() {
+        let rotor = [(0.0, 0.02635000), (360.0, 0.02889061), (720.0, 0.03122518), (1440.0, 0.03543587)];
+        grows(8.178, 27.0, 0.02635, rotor);
+        let model = [(0.0, 0.00952500), (180.0, 0.01025669), (360.0, 0.01093955), (720.0, 0.01219105)];
+        grows(1.143, 130.9, 0.009525, model);
+    }
+
+    #[test]
+    fn stretching_keeps_the_volume_of_vorticity() {
+        let mut options = WakeOptions::new(4, 8.0, 1.0, 0.4, 0.5, 27.0);
+        options.core_growth = 0.0;
+        let (old, strain) = (0.04, 0.3);
+        let new = stretched_core_squared(&options, old, 1.0, 1.0 + strain);
+        assert!((new.sqrt() - old.sqrt() / (1.0 + strain).sqrt()).abs() < 1e-15);
+        // a segment ten times as long in one step is thinned by the limit only
+        assert!((stretched_core_squared(&options, old, 1.0, 10.0) - 0.5 * old).abs() < 1e-15);
+    }
+}

@@ -456,3 +456,47 @@ impl BladeState {
         finite("blade psi, flap, lead", &[self.psi, self.flap, self.lead])
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ROTOR: &str =
+        r#""n_blades": 4, "radius": 8.0, "root_cutout": 1.0, "hinge_offset": 0.4, "chord": 0.5, "omega": 27.0"#;
+
+    #[test]
+    fn numerical_parameters_have_defaults_and_rotor_data_have_none() {
+        let given: WakeOptions = serde_json::from_str(&format!("{{{ROTOR}}}")).unwrap();
+        assert_eq!(given, WakeOptions::new(4, 8.0, 1.0, 0.4, 0.5, 27.0));
+        assert!(given.validate().is_ok());
+        assert_eq!((given.n_segments(), given.near_wake_markers()), (144, 3));
+        let missing = ROTOR.replace(r#", "chord": 0.5"#, "");
+        let message = serde_json::from_str::<WakeOptions>(&format!("{{{missing}}}")).unwrap_err().to_string();
+        assert!(message.contains("chord"), "{message}");
+        assert!(serde_json::from_str::<WakeOptions>(&format!(r#"{{{ROTOR}, "core": 0.02}}"#)).is_err());
+    }
+
+    #[test]
+    fn a_refused_option_names_field_and_value() {
+        let refused = |change: &dyn Fn(&mut WakeOptions)| {
+            let mut options = WakeOptions::new(4, 8.0, 1.0, 0.4, 0.5, 27.0);
+            change(&mut options);
+            options.validate().unwrap_err().to_string()
+        };
+        let message = refused(&|o| o.steps_per_revolution = 30);
+        assert!(message.contains("steps_per_revolution = 30") && message.contains("n_blades = 4"), "{message}");
+        assert!(refused(&|o| o.turns = 2.01).contains("turns = 2.01"));
+        assert!(refused(&|o| o.near_wake_angle = 0.5).contains("near_wake_angle = 0.5"));
+        assert!(refused(&|o| o.radius = f64::NAN).contains("radius = NaN"));
+        assert!(refused(&|o| o.relaxation = 0.0).contains("relaxation = 0"));
+    }
+
+    #[test]
+    fn a_nose_up_rate_blows_from_below_behind_the_hub() {
+        // q > 0 is a rotation about +y (right): relative wind up at x > 0 (aft); roll right, p > 0, is about -x
+        let pitch = HubMotion { velocity: [0.0; 3], rates: [0.0, 0.1, 0.0] };
+        assert!(pitch.wind([5.0, 0.0, 0.0])[2] > 0.0);
+        let roll = HubMotion { velocity: [0.0; 3], rates: [-0.1, 0.0, 0.0] };
+        assert!(roll.wind([0.0, 5.0, 0.0])[2] > 0.0);
+    }
+}
