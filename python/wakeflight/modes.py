@@ -71,7 +71,7 @@ def blade_modes(
     except ValueError as reason:
         raise InputError(f"{aircraft.path}: {reason}") from None
     radius = np.linspace(blade["root_station"], blade["radius"], 201)
-    raw = core.shapes(radius)
+    raw = {name: np.asarray(values).T for name, values in core.shapes(radius).items()}
     tip = np.maximum(np.abs(raw["v"][:, -1]), np.abs(raw["w"][:, -1]))
     scale = np.where(np.asarray(core.energy_shares)[:, 2] > 0.5, np.abs(raw["phi"][:, -1]), tip)
     shapes = {name: raw[key] / scale[:, None] for name, key in (("flap", "w"), ("lead", "v"), ("twist", "phi"))}

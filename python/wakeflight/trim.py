@@ -251,28 +251,48 @@ def resample(inflow_map: np.ndarray, n: int) -> np.ndarray:
 
 
 def first_guess(model: Model, problem: _core.TrimProblem) -> np.ndarray:
-    """Sticks at mid travel, level attitude, momentum inflow, three degrees of coning and of lag."""
+    """Closed-form start: momentum inflow, linear blade-element thrust and flapping, sticks through the rigging.
+
+    C_T = sigma a/2 [theta_75 (1/3 + mu^2/2) - lambda/2]; the cyclic holds two degrees of forward flapping against
+    (8/3 theta_75 - 2 lambda) mu; drag of four per cent of the weight at 80 kt, growing with the square of the speed.
+    """
     modes, inflow, tail = model.core.trim_layout(problem)
     x = np.zeros(modes[-1])
-    x[:4] = 0.5 * INCH * np.asarray(model.aircraft.stick_travel_in)
-    x[5] = np.radians(2.0)
-    kind, angle = convention(model.condition)
-    if kind == "sideslip":
-        x[6] = -angle
-    area = np.pi * model.rotor["radius"] ** 2
-    ct = model.condition.gross_mass * STANDARD_GRAVITY / (model.density * area * model.tip_speed**2)
-    mu = model.condition.speed / model.tip_speed
+    c, rotor, data = model.condition, model.rotor, model.data
+    area = np.pi * rotor["radius"] ** 2
+    ct = c.gross_mass * STANDARD_GRAVITY / (model.density * area * model.tip_speed**2)
+    mu = c.speed * np.cos(c.flight_path) / model.tip_speed
     lambda_0 = np.sqrt(ct / 2)
     for _ in range(50):
         lambda_0 = 0.5 * (lambda_0 + ct / (2 * np.hypot(mu, lambda_0)))
+    drag = 0.04 * (c.speed / 41.0) ** 2
+    through = lambda_0 + c.speed / model.tip_speed * (drag + np.sin(c.flight_path))
+    loading = 2 * ct / (5.7 * model.aircraft.solidity)
+    pitch_75 = (loading + 0.5 * through) / (1 / 3 + mu**2 / 2)
+    twist = data["rotor"]["blade"]["twist"]
+    theta_0 = pitch_75 - np.interp(0.75 * rotor["radius"], twist["x"], twist["y"])
+    forward = np.radians(2.0)
+    theta_1s = -(forward + mu * (8 / 3 * pitch_75 - 2 * through) / (1 - mu**2 / 2))
+
+    # sticks that give this pitch, the pedal at mid travel
+    matrix, offset = np.asarray(data["rigging"]["matrix"]), np.asarray(data["rigging"]["offset"])
+    pedal = 0.5 * INCH * model.aircraft.stick_travel_in[3]
+    wanted = np.array([np.radians(1.0), theta_1s, theta_0]) - offset[:3] - matrix[:3, 3] * pedal
+    x[:3], x[3] = np.linalg.solve(matrix[:3, :3], wanted), pedal
+    x[5] = forward + data["rotor"]["shaft_tilt_forward"] - drag
+    kind, angle = convention(c)
+    if kind == "sideslip":
+        x[6] = -angle
     x[inflow] = lambda_0
     if tail < modes[0]:
         x[tail] = 0.02
-    x[modes[model.rotor["flap_mode"]]] = np.radians(3.0) / model.rotor["flap_per_coordinate"]
-    lead = np.asarray(model.rotor["root_lead_slope"])
-    lag_mode = int(np.argmin(model.rotor["frequencies"]))
-    if abs(lead[lag_mode]) > 0:
-        x[modes[lag_mode]] = -np.radians(3.0) / lead[lag_mode]
+    flap = modes[rotor["flap_mode"]]
+    x[flap] = np.radians(3.0) / rotor["flap_per_coordinate"]
+    x[flap + 1] = forward / rotor["flap_per_coordinate"]
+    lag_mode = int(np.argmin(rotor["frequencies"]))
+    lead = rotor["root_lead_slope"][lag_mode]
+    if abs(lead) > 0:
+        x[modes[lag_mode]] = -np.radians(3.0) / lead
     return x
 
 

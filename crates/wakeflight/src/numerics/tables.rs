@@ -34,7 +34,8 @@ fn cell<S: Real>(axis: &[f64], value: S) -> (usize, S) {
     if value.re() >= axis[last] {
         return (last - 1, S::one());
     }
-    let i = axis.partition_point(|&a| a <= value.re()) - 1;
+    // a value that is not a number stays one: the first cell, and the caller sees it in the result
+    let i = axis.partition_point(|&a| a <= value.re()).saturating_sub(1);
     (i, (value - axis[i]) / (axis[i + 1] - axis[i]))
 }
 
