@@ -4,7 +4,10 @@
 //! sin B = w', sin L = v'/cos B, t = (cos B cos L, cos B sin L, sin B), c0 = (-sin L, cos L, 0), n0 = t x c0,
 //! c = c0 cos theta + n0 sin theta, n = n0 cos theta - c0 sin theta.
 //! Angular velocity relative to the rotating blade axes: L_dot e_z - B_dot c0 + theta_dot t.
-//! The span shortens by 1/2 int [v'^2 + w'^2 + k_A^2 (phi'^2 + 2 theta_tw' phi')] dx, a quadratic form in the modal coordinates.
+//! The span shortens by l (1 - sqrt(1 - S/l)) + int k_A^2 theta_tw' phi' dx, S = int [v'^2 + w'^2 + k_A^2 phi'^2] dx over
+//! the length l inboard: exact for a blade that turns rigidly about its hinge, second order in bending and twist.
+//! DEVIATION: the usual S/2 lets the span grow by l sin^4/8 under a rigid turn; centrifugal force then overcomes the
+//! small lag stiffness of an articulated blade near 22 deg of lag, which a stalled rotor reaches in a roll reversal.
 
 use super::MAX_MODES;
 use crate::numerics::frames::Vec3;
@@ -19,6 +22,8 @@ pub struct BladeAxes;
 pub struct StationShapes {
     /// Station [m] from the hub centre.
     pub x: f64,
+    /// Length inboard of it, from hinge or clamp [m].
+    pub length: f64,
     /// Lead displacement per modal coordinate, and its slope and curvature.
     pub v: [[f64; MAX_MODES]; 3],
     /// Flap displacement, slope, curvature.
@@ -110,16 +115,30 @@ impl StationShapes {
     #[inline(always)]
     pub fn motion<S: Real>(&self, n_modes: usize, m: &ModalMotion<S>, pitch: &PitchMotion<S>) -> SectionMotion<S> {
         let k = n_modes;
-        // foreshortening u = -(q.U q/2 + c.q) with its rates
-        let mut gradient = [S::zero(); MAX_MODES];
+        // foreshortening u = -[l (1 - sqrt(1 - S/l)) + c.q], S = q.U q over the length l, with its rates
+        let mut slopes = [S::zero(); MAX_MODES];
+        let (mut sum, mut sum_dot, mut sum_ddot) = (S::zero(), S::zero(), S::zero());
         let (mut u, mut u_dot, mut u_ddot) = (S::zero(), S::zero(), S::zero());
         for i in 0..k {
-            let uq = combine(&self.shortening[i], &m.q, k);
-            let uq_dot = combine(&self.shortening[i], &m.q_dot, k);
-            gradient[i] = uq + self.shortening_twist[i];
-            u += m.q[i] * (uq * 0.5 + self.shortening_twist[i]);
-            u_dot += m.q_dot[i] * gradient[i];
-            u_ddot += m.q_ddot[i] * gradient[i] + m.q_dot[i] * uq_dot;
+            slopes[i] = combine(&self.shortening[i], &m.q, k);
+            let slope_dot = combine(&self.shortening[i], &m.q_dot, k);
+            sum += m.q[i] * slopes[i];
+            sum_dot += m.q_dot[i] * slopes[i] * 2.0;
+            sum_ddot += (m.q_ddot[i] * slopes[i] + m.q_dot[i] * slope_dot) * 2.0;
+            u += m.q[i] * self.shortening_twist[i];
+            u_dot += m.q_dot[i] * self.shortening_twist[i];
+            u_ddot += m.q_ddot[i] * self.shortening_twist[i];
+        }
+        let mut gradient = self.shortening_twist.map(S::cst);
+        if self.length > 0.0 {
+            let root = (S::one() - sum / self.length).sqrt();
+            let half = S::cst(0.5) / root;
+            u += (S::one() - root) * self.length;
+            u_dot += half * sum_dot;
+            u_ddot += half * (sum_ddot + sum_dot * sum_dot / (root * root) * (0.5 / self.length));
+            for i in 0..k {
+                gradient[i] += half * slopes[i] * 2.0;
+            }
         }
         let v = |d: usize, q: &[S; MAX_MODES]| combine(&self.v[d], q, k);
         let w = |d: usize, q: &[S; MAX_MODES]| combine(&self.w[d], q, k);

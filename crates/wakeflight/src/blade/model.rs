@@ -163,6 +163,7 @@ impl<'a> Shaper<'a> {
         let root = self.modes.at(self.properties.root_station);
         let mut shapes = StationShapes {
             x,
+            length: x - self.properties.root_station,
             v: [[0.0; MAX_MODES]; 3],
             w: [[0.0; MAX_MODES]; 3],
             theta: [0.0; MAX_MODES],
