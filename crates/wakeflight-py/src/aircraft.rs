@@ -78,7 +78,9 @@ impl PyTrimProblem {
         };
         let inflow = match inflow {
             None => TrimInflow::Dynamic,
-            Some(map) => TrimInflow::Map { inflow: map.as_array().iter().copied().collect(), mean: mean_inflow },
+            Some(map) => {
+                TrimInflow::Map { inflow: map.as_array().iter().copied().collect(), mean: mean_inflow }
+            }
         };
         Ok(Self(TrimProblem { speed, flight_path, turn_rate, convention, n_harmonics, n_azimuths, inflow }))
     }
@@ -113,8 +115,9 @@ impl PyAircraft {
     ) -> PyResult<Self> {
         let data: AircraftData = serde_json::from_str(data_json).map_err(invalid)?;
         let discretisation = Discretisation { n_elements, n_modes, n_gauss, n_stations, reference_pitch };
-        let inner = Aircraft::new(&data, Air { density, speed_of_sound }, &discretisation, free_wake, gravity)
-            .map_err(invalid)?;
+        let inner =
+            Aircraft::new(&data, Air { density, speed_of_sound }, &discretisation, free_wake, gravity)
+                .map_err(invalid)?;
         Ok(Self { inner })
     }
 
@@ -152,7 +155,10 @@ impl PyAircraft {
         d.set_item("chords", r.blade.stations.iter().map(|s| s.geometry.chord).collect::<Vec<_>>())?;
         let modes = 0..r.blade.n_modes;
         d.set_item("frequencies", r.blade.modes.frequency[modes.clone()].to_vec())?;
-        d.set_item("angle_per_coordinate", modes.map(|i| self.inner.angle_per_coordinate(i)).collect::<Vec<_>>())?;
+        d.set_item(
+            "angle_per_coordinate",
+            modes.map(|i| self.inner.angle_per_coordinate(i)).collect::<Vec<_>>(),
+        )?;
         d.set_item("tip_flap", r.blade.tip.w[0][..r.blade.n_modes].to_vec())?;
         d.set_item("tip_lead", r.blade.tip.v[0][..r.blade.n_modes].to_vec())?;
         d.set_item("tip_twist", r.blade.tip.theta[..r.blade.n_modes].to_vec())?;
@@ -325,9 +331,10 @@ impl PyAircraft {
         for (i, &azimuth) in psi.iter().enumerate() {
             let modal = motion(q.row(i).iter().copied(), q_dot.row(i).iter().copied());
             let (flap, lead) = self.inner.rotor.equivalent_angles(&modal);
-            let matrix =
-                near_wake_matrix(&options, &wake_hub, &BladeState { psi: azimuth, flap, lead }).map_err(invalid)?;
-            let blade = BladeInstant { psi: azimuth, modal, control: self.inner.blade_pitch(&inputs, 0.0, azimuth) };
+            let matrix = near_wake_matrix(&options, &wake_hub, &BladeState { psi: azimuth, flap, lead })
+                .map_err(invalid)?;
+            let blade =
+                BladeInstant { psi: azimuth, modal, control: self.inner.blade_pitch(&inputs, 0.0, azimuth) };
             let solution = self
                 .inner
                 .blade_circulation(&hub, &blade, &far.row(i).to_vec(), &matrix, &start.row(i).to_vec())
@@ -409,7 +416,10 @@ impl PyAircraft {
         ];
         for (name, values) in fields {
             let n = values.len() / n_blades;
-            d.set_item(name, Array::from_shape_vec((n_blades, n), values).map_err(invalid)?.into_pyarray(py))?;
+            d.set_item(
+                name,
+                Array::from_shape_vec((n_blades, n), values).map_err(invalid)?.into_pyarray(py),
+            )?;
         }
         Ok(d)
     }

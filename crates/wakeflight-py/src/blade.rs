@@ -79,8 +79,7 @@ impl PyBladeModes {
     /// Shares of kinetic energy (n_modes, 3): flap, lag, torsion.
     #[getter]
     fn energy_shares<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let rows: Vec<Vec<f64>> =
-            self.modes.shares.iter().map(|s| vec![s.flap, s.lag, s.torsion]).collect();
+        let rows: Vec<Vec<f64>> = self.modes.shares.iter().map(|s| vec![s.flap, s.lag, s.torsion]).collect();
         Ok(PyArray2::from_vec2(py, &rows)?)
     }
 

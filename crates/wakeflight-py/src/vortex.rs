@@ -58,8 +58,11 @@ fn induced_velocity<'py>(
     let points = vectors("points", &points)?;
     let nodes = vectors("nodes", &nodes)?;
     let offsets = filament_offsets.as_array();
-    let n_nodes: Vec<usize> =
-        offsets.iter().zip(offsets.iter().skip(1)).map(|(a, b)| usize::try_from(b - a).unwrap_or(0)).collect();
+    let n_nodes: Vec<usize> = offsets
+        .iter()
+        .zip(offsets.iter().skip(1))
+        .map(|(a, b)| usize::try_from(b - a).unwrap_or(0))
+        .collect();
     let filaments = Filaments {
         n_nodes,
         nodes,
@@ -71,7 +74,9 @@ fn induced_velocity<'py>(
         && filaments.circulation.len() == n_segments
         && filaments.core_radius.len() == n_segments;
     if !consistent {
-        return Err(PyValueError::new_err("filament_offsets, nodes, circulation and core_radius do not belong together"));
+        return Err(PyValueError::new_err(
+            "filament_offsets, nodes, circulation and core_radius do not belong together",
+        ));
     }
     let velocity = py.detach(|| {
         let mut velocity = vec![[0.0; 3]; points.len()];

@@ -33,9 +33,14 @@ fn flat(array: &PyReadonlyArray2<'_, f64>) -> Vec<f64> {
 }
 
 /// (n, m) array from row-major values.
-fn matrix<'py, T: Element>(py: Python<'py>, values: Vec<T>, rows: usize) -> PyResult<Bound<'py, PyArray2<T>>> {
+fn matrix<'py, T: Element>(
+    py: Python<'py>,
+    values: Vec<T>,
+    rows: usize,
+) -> PyResult<Bound<'py, PyArray2<T>>> {
     let columns = values.len().checked_div(rows).unwrap_or(0);
-    let array = Array::from_shape_vec((rows, columns), values).map_err(|e| PyValueError::new_err(e.to_string()))?;
+    let array =
+        Array::from_shape_vec((rows, columns), values).map_err(|e| PyValueError::new_err(e.to_string()))?;
     Ok(array.into_pyarray(py))
 }
 
@@ -76,7 +81,12 @@ struct RelaxationWake {
 #[pymethods]
 impl RelaxationWake {
     #[new]
-    fn new(options_json: &str, hub_velocity: [f64; 3], hub_rates: [f64; 3], mean_inflow: f64) -> PyResult<Self> {
+    fn new(
+        options_json: &str,
+        hub_velocity: [f64; 3],
+        hub_rates: [f64; 3],
+        mean_inflow: f64,
+    ) -> PyResult<Self> {
         let options = parse_options(options_json)?;
         let hub = HubMotion { velocity: hub_velocity, rates: hub_rates };
         let inner = wake::RelaxationWake::new(options, hub, mean_inflow).map_err(py_error)?;
@@ -95,7 +105,11 @@ impl RelaxationWake {
     ) -> PyResult<()> {
         let (flap, lead) = (flap.as_array(), lead.as_array());
         if flap.len() != lead.len() {
-            return Err(PyValueError::new_err(format!("flap has {} values, lead {}", flap.len(), lead.len())));
+            return Err(PyValueError::new_err(format!(
+                "flap has {} values, lead {}",
+                flap.len(),
+                lead.len()
+            )));
         }
         let blades: Vec<(f64, f64)> = flap.iter().copied().zip(lead.iter().copied()).collect();
         let circulation = flat(&circulation);
@@ -194,7 +208,11 @@ struct TimeMarchingWake {
 impl TimeMarchingWake {
     /// Starts from a periodic wake with blade 1 at row `azimuth_index`, with the scheme of `options_json`.
     #[staticmethod]
-    fn from_relaxation(relaxation: &RelaxationWake, azimuth_index: usize, options_json: &str) -> PyResult<Self> {
+    fn from_relaxation(
+        relaxation: &RelaxationWake,
+        azimuth_index: usize,
+        options_json: &str,
+    ) -> PyResult<Self> {
         let options = parse_options(options_json)?;
         let mut inner =
             wake::TimeMarchingWake::from_relaxation(&relaxation.inner, azimuth_index).map_err(py_error)?;

@@ -22,13 +22,30 @@ fn main() {
     let sets = [InstructionSet::Scalar, InstructionSet::Vector, InstructionSet::Avx512];
     println!("widest here: {:?}", InstructionSet::widest());
     for distance in [CoreDistance::Line, CoreDistance::Segment] {
-        for core in [Core::Vatistas2, Core::Singular, Core::Scully, Core::Rankine, Core::LambOseen, Core::RosenheadMoore] {
-            for set in sets.into_iter().filter(|set| *set != InstructionSet::Avx512 || InstructionSet::widest() == *set) {
+        for core in [
+            Core::Vatistas2,
+            Core::Singular,
+            Core::Scully,
+            Core::Rankine,
+            Core::LambOseen,
+            Core::RosenheadMoore,
+        ] {
+            for set in sets
+                .into_iter()
+                .filter(|set| *set != InstructionSet::Avx512 || InstructionSet::widest() == *set)
+            {
                 let mut velocity = vec![[0.0; 3]; points.len()];
                 let mut best = f64::INFINITY;
                 for _ in 0..60 {
                     let start = Instant::now();
-                    add_filaments_velocity_on(set, black_box(&points), &filaments, core, distance, &mut velocity);
+                    add_filaments_velocity_on(
+                        set,
+                        black_box(&points),
+                        &filaments,
+                        core,
+                        distance,
+                        &mut velocity,
+                    );
                     best = best.min(start.elapsed().as_secs_f64());
                 }
                 black_box(&velocity);

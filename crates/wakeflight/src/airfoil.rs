@@ -228,7 +228,8 @@ impl Airfoil {
             let at_high = v10 + g * (v11 - v10);
             let by_mach = (v01 - v00) + f * ((v11 - v10) - (v01 - v00));
             // the value and its two slopes: exact derivatives at the cost of two products
-            alpha.chain(at_low + f * (at_high - at_low), df * (at_high - at_low)) + mach.chain(0.0, dg * by_mach)
+            alpha.chain(at_low + f * (at_high - at_low), df * (at_high - at_low))
+                + mach.chain(0.0, dg * by_mach)
         };
         (coefficient(0), coefficient(1), coefficient(2))
     }
@@ -247,7 +248,9 @@ mod tests {
             values: x.iter().map(|&a| y.iter().map(|&m| f(a.to_radians(), m)).collect()).collect(),
         };
         AirfoilTables {
-            cl: grid(&[-180., -172.5, -49., -3., 0.5, 12., 90., 180.], &[0., 0.3, 0.75, 1.], |a, m| a.sin() * (1. + m)),
+            cl: grid(&[-180., -172.5, -49., -3., 0.5, 12., 90., 180.], &[0., 0.3, 0.75, 1.], |a, m| {
+                a.sin() * (1. + m)
+            }),
             cd: grid(&[-180., -20., 0., 21., 180.], &[0., 0.9], |a, m| 1. - a.cos() + m * m),
             cm: grid(&[-180., 0., 180.], &[0., 0.25, 0.95], |a, m| -0.1 * a.sin().powi(2) + m),
             cd_increment: 0.002,
@@ -300,10 +303,16 @@ mod tests {
     fn faulty_tables_are_refused_by_name() {
         let mut t = tables();
         t.cl.x[7] = 3.0;
-        assert!(matches!(Airfoil::new(&t), Err(AirfoilError::Range { table: "cl", axis: "angle of attack", .. })));
+        assert!(matches!(
+            Airfoil::new(&t),
+            Err(AirfoilError::Range { table: "cl", axis: "angle of attack", .. })
+        ));
         let mut t = tables();
         t.cd.y[1] = 0.85;
-        assert!(matches!(Airfoil::new(&t), Err(AirfoilError::Range { table: "cd", axis: "Mach number", .. })));
+        assert!(matches!(
+            Airfoil::new(&t),
+            Err(AirfoilError::Range { table: "cd", axis: "Mach number", .. })
+        ));
         let mut t = tables();
         t.cm.x[1] = -4.0;
         assert!(matches!(Airfoil::new(&t), Err(AirfoilError::NotAscending { table: "cm", index: 1, .. })));

@@ -4,7 +4,9 @@ use thiserror::Error;
 
 /// Altitude outside the modelled layer.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
-#[error("altitude {altitude} m is outside the troposphere of the standard atmosphere ({LOWEST} m to {HIGHEST} m)")]
+#[error(
+    "altitude {altitude} m is outside the troposphere of the standard atmosphere ({LOWEST} m to {HIGHEST} m)"
+)]
 pub struct AtmosphereError {
     /// Altitude asked for [m].
     pub altitude: f64,

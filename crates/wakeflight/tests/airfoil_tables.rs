@@ -44,7 +44,8 @@ fn every_look_up_equals_the_table_by_itself() {
 
 #[test]
 fn tables_arrive_checked_from_serialised_data() {
-    let grid = |first: f64| format!(r#"{{"x":[{first},3.14159265358979312],"y":[0.0,1.0],"values":[[0,0],[1,1]]}}"#);
+    let grid =
+        |first: f64| format!(r#"{{"x":[{first},3.14159265358979312],"y":[0.0,1.0],"values":[[0,0],[1,1]]}}"#);
     let json = |first: f64| {
         let (good, g) = (grid(-std::f64::consts::PI), grid(first));
         format!(r#"{{"cl":{good},"cd":{good},"cm":{g},"cd_increment":0.002}}"#)

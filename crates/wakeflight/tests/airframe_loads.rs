@@ -150,7 +150,9 @@ fn fuselage_wash_in_the_stated_order() {
     assert!((f.x - 32.0).abs() < 1e-12 && f.z == 1.0);
     assert!((f.y - (3.0 - 40.0 * 0.88f64.to_radians())).abs() < 1e-12);
     let t = w.at_tail_rotor(v);
-    assert!((t.y - f.y * 0.8).abs() < 1e-12 && (t.z - 0.8 * (1.0 - 40.0 * 0.45f64.to_radians())).abs() < 1e-12);
+    assert!(
+        (t.y - f.y * 0.8).abs() < 1e-12 && (t.z - 0.8 * (1.0 - 40.0 * 0.45f64.to_radians())).abs() < 1e-12
+    );
     let none = FuselageWash::<f64>::none();
     for local in [none.at_stabilator(v), none.at_fin(v), none.at_tail_rotor(v)] {
         assert_eq!(local.array(), v.array());
@@ -166,9 +168,7 @@ fn interference_derivatives_equal_central_differences() {
         let f = i.fuselage_wash(x[4], x[5]);
         let v = Vec3::new(x[6], x[7], x[8]);
         let (s, n, t) = (f.at_stabilator(v), f.at_fin(v), f.at_tail_rotor(v));
-        [
-            w.fuselage.x, w.fuselage.z, w.stabilator.x, w.fin.z, s.x, s.z, n.x, n.y, t.x, t.y, t.z, f.sidewash,
-        ]
+        [w.fuselage.x, w.fuselage.z, w.stabilator.x, w.fin.z, s.x, s.z, n.x, n.y, t.x, t.y, t.z, f.sidewash]
     }
     assert_derivatives(x, evaluate(&i, variables(x)), 40.0, |x| evaluate(&i, x));
 }

@@ -56,7 +56,8 @@ fn rotating_uniform_beam_converges_with_the_number_of_elements() {
 
 #[test]
 fn in_plane_frequency_squared_is_the_out_of_plane_one_less_rotor_speed_squared() {
-    let (flap, lag) = (uniform(Root::Clamped, 0.0, 1.0, 1.0, 1e4), uniform(Root::Clamped, 0.0, 1.0, 1e4, 1.0));
+    let (flap, lag) =
+        (uniform(Root::Clamped, 0.0, 1.0, 1.0, 1e4), uniform(Root::Clamped, 0.0, 1.0, 1e4, 1.0));
     let flap = mostly(&modes(&flap, 6.0, 6, 4), Motion::Flap);
     let lag = mostly(&modes(&lag, 6.0, 6, 4), Motion::Lag);
     for i in 0..3 {
@@ -135,10 +136,20 @@ fn elastic_articulated_blade_has_the_computed_flap_and_lag_frequencies() {
         let found = modes(&uniform(Root::Hinged, 0.0466, 1.0, ei, ei), 1.0, 8, 6);
         let (flap, lag) = (mostly(&found, Motion::Flap), mostly(&found, Motion::Lag));
         for mode in 0..3 {
-            assert_close(flap[mode], list(&format!("flap_{}", mode + 1))[i], 1e-3, &format!("flap {mode} EI {ei}"));
+            assert_close(
+                flap[mode],
+                list(&format!("flap_{}", mode + 1))[i],
+                1e-3,
+                &format!("flap {mode} EI {ei}"),
+            );
         }
         for mode in 0..2 {
-            assert_close(lag[mode], list(&format!("lag_{}", mode + 1))[i], 1e-3, &format!("lag {mode} EI {ei}"));
+            assert_close(
+                lag[mode],
+                list(&format!("lag_{}", mode + 1))[i],
+                1e-3,
+                &format!("lag {mode} EI {ei}"),
+            );
         }
     }
 }

@@ -166,7 +166,9 @@ fn slopes_and_curvatures_are_derivatives_of_the_shapes_and_the_hinge_holds() {
     for i in 0..5 {
         assert_eq!((root.v[i], root.w[i]), (0.0, 0.0));
         let found = modes.tip[i];
-        assert!((tip.v[i] - found.v).abs() + (tip.w[i] - found.w).abs() + (tip.phi[i] - found.phi).abs() < 1e-14);
+        assert!(
+            (tip.v[i] - found.v).abs() + (tip.w[i] - found.w).abs() + (tip.phi[i] - found.phi).abs() < 1e-14
+        );
     }
     let mut clamped = uh60a();
     clamped.root = Root::Clamped;

@@ -168,14 +168,25 @@ fn coupled_frequencies_converge_and_five_modes_hold_torsion() {
             let beside = fan.get(i).map_or(String::new(), |f| format!("fan plot {f:.3}"));
             println!(
                 "{:2} {nu:8.4}  flap {:.3} lag {:.3} torsion {:.3}  tip v {:+.5} w {:+.5} phi {:+.5}  {beside}",
-                i + 1, share.flap, share.lag, share.torsion, tip.v, tip.w, tip.phi
+                i + 1,
+                share.flap,
+                share.lag,
+                share.torsion,
+                tip.v,
+                tip.w,
+                tip.phi
             );
         }
     }
     let (coarse, middle, fine) = (coupled(4, 5), coupled(12, 5), coupled(36, 5));
     for i in 0..5 {
         let above = |modes: &BladeModes| modes.frequency[i] / fine.frequency[i] - 1.0;
-        println!("mode {}: 4 elements {:+.2e}, 12 elements {:+.2e} of 36 elements", i + 1, above(&coarse), above(&middle));
+        println!(
+            "mode {}: 4 elements {:+.2e}, 12 elements {:+.2e} of 36 elements",
+            i + 1,
+            above(&coarse),
+            above(&middle)
+        );
         assert!(above(&coarse) < 5e-3 && above(&middle) < 3e-3, "mode {i}");
         // every finer mesh holds the functions of the coarser
         assert!(above(&middle) > -1e-9 && above(&coarse) >= above(&middle) - 1e-9, "mode {i}");
@@ -196,7 +207,10 @@ fn pieces_cover_the_blade_and_its_mass_is_that_of_the_table() {
     let moment = |power: i32| -> f64 {
         let part = |&(a, b, segment): &(f64, f64, usize)| {
             let points = gauss_points(3, a, b);
-            points.into_iter().map(|(x, dx)| dx * blade.section(segment, x).mass * (x - hinge).powi(power)).sum::<f64>()
+            points
+                .into_iter()
+                .map(|(x, dx)| dx * blade.section(segment, x).mass * (x - hinge).powi(power))
+                .sum::<f64>()
         };
         pieces.iter().map(part).sum()
     };

@@ -104,7 +104,8 @@ fn verif_mean_inflow_static_gains_and_eigenvalues() {
         reference.sort_by(|x, y| x.0.total_cmp(&y.0).then(x.1.total_cmp(&y.1)));
         // the pair's real parts differ by rounding only: compare as sets
         for r in &reference {
-            let nearest = eigenvalues.iter().map(|e| (e.0 - r.0).hypot(e.1 - r.1)).fold(f64::INFINITY, f64::min);
+            let nearest =
+                eigenvalues.iter().map(|e| (e.0 - r.0).hypot(e.1 - r.1)).fold(f64::INFINITY, f64::min);
             assert!(nearest < 1e-7, "{} {r:?}: {eigenvalues:?}", c.mu);
         }
 
@@ -116,7 +117,9 @@ fn verif_mean_inflow_static_gains_and_eigenvalues() {
 
 #[test]
 fn verif_hover_eigenvalues_of_the_small_perturbation() {
-    for (apparent_mass, uniform) in [(ApparentMass::Corrected, -0.36815539), (ApparentMass::Uncorrected, -0.23562)] {
+    for (apparent_mass, uniform) in
+        [(ApparentMass::Corrected, -0.36815539), (ApparentMass::Uncorrected, -0.23562)]
+    {
         let model = PittPeters { apparent_mass, mass_flow: MassFlow::State };
         let a = system(model, [0.05, 0.0, 0.0], 0.005, 0.0, 0.0);
         let digits = if apparent_mass == ApparentMass::Corrected { 1e-7 } else { 5e-6 };
@@ -177,7 +180,8 @@ fn verif_ramps_of_collective_in_hover_with_flapping() {
         [0.50, 0.00669845, 0.03664263, 6.655204],
         [1.00, 0.00726506, 0.05984348, 7.433944],
     ];
-    for (rate_deg, samples, peak) in [(200.0f64, samples_fast, 0.01095023), (20.0, samples_slow, 0.00803242)] {
+    for (rate_deg, samples, peak) in [(200.0f64, samples_fast, 0.01095023), (20.0, samples_slow, 0.00803242)]
+    {
         let theta = |t: f64| (rate_deg * t).min(12.0).to_radians();
         let thrust = |t: f64, lambda: f64, beta_dot: f64| {
             0.5 * solidity * slope * (theta(t) / 3.0 - 0.5 * lambda - beta_dot / (3.0 * omega))

@@ -131,7 +131,13 @@ fn verif_momentum_and_energy_are_kept_with_the_origin_off_the_centre_of_gravity(
     let first = start([135.0, 10.0, -5.0]);
     let (before, after) = (invariants(&first), invariants(&integrate(&b, 0.0, first, 5.0)));
     for k in 0..7 {
-        let scale = if k < 3 { 5e4 } else if k < 6 { 14533.0 } else { before[6] };
+        let scale = if k < 3 {
+            5e4
+        } else if k < 6 {
+            14533.0
+        } else {
+            before[6]
+        };
         assert!((after[k] - before[k]).abs() < 1e-9 * scale, "{k}: {} {}", before[k], after[k]);
     }
 }

@@ -26,7 +26,10 @@ fn level(options: &WakeOptions, tolerance: f64) -> RelaxationWake {
 
 /// Marching from relaxation: inflow maps of the last revolution and relaxation, change of geometry in the last
 /// revolution over R, odd-even monitor of the last revolution.
-fn march(options: &WakeOptions, revolutions: usize) -> (Vec<f64>, Vec<f64>, f64, f64, wakeflight::wake::geometry::BladeGrid) {
+fn march(
+    options: &WakeOptions,
+    revolutions: usize,
+) -> (Vec<f64>, Vec<f64>, f64, f64, wakeflight::wake::geometry::BladeGrid) {
     let mut start = level(options, 1e-7);
     let reference = start.inflow_far();
     let mut wake = TimeMarchingWake::from_relaxation(&start, 0).unwrap();
@@ -36,7 +39,10 @@ fn march(options: &WakeOptions, revolutions: usize) -> (Vec<f64>, Vec<f64>, f64,
         (map, odd_even) = revolution(&mut wake, level_hub(), CT, turn * options.steps_per_revolution);
         change = distance(&before, wake.position());
     }
-    println!("{:?} {:?}: change per revolution {change}, odd-even {odd_even}", options.scheme, options.predictor);
+    println!(
+        "{:?} {:?}: change per revolution {change}, odd-even {odd_even}",
+        options.scheme, options.predictor
+    );
     (map, reference, change, odd_even, wake.grid().clone())
 }
 
@@ -88,8 +94,14 @@ fn verif_backward_marching_nears_the_relaxed_wake_with_smaller_steps() {
 fn verif_odd_even_mode_grows_with_a_central_predictor_and_decays_with_a_filter() {
     // the operator of PC2B has the amplification factor -1 for every mode of age
     let case = |predictor, time_filter| {
-        let options =
-            WakeOptions { scheme: Scheme::Pc2b, predictor, time_filter, turns: 3.0, n_stations: 4, ..level_options() };
+        let options = WakeOptions {
+            scheme: Scheme::Pc2b,
+            predictor,
+            time_filter,
+            turns: 3.0,
+            n_stations: 4,
+            ..level_options()
+        };
         march(&options, 16)
     };
     let (.., grown, _, _) = case(Predictor::Central, 0.0);
@@ -136,7 +148,13 @@ mod inertial {
         let h = t / n as f64;
         let mut place = [0.0; 3];
         for i in 0..=n {
-            let weight = if i == 0 || i == n { 1.0 } else if i % 2 == 1 { 4.0 } else { 2.0 };
+            let weight = if i == 0 || i == n {
+                1.0
+            } else if i % 2 == 1 {
+                4.0
+            } else {
+                2.0
+            };
             let v = times(&rotation(hub.rates, i as f64 * h), hub.velocity);
             for c in 0..3 {
                 place[c] += weight * h / 3.0 * v[c];
@@ -186,7 +204,8 @@ mod inertial {
                 let x = times(c, r);
                 std::array::from_fn(|i| x[i] + h[i])
             };
-            let to_hub = |x: [f64; 3]| -> [f64; 3] { times(&transposed(&c1), std::array::from_fn(|i| x[i] - h1[i])) };
+            let to_hub =
+                |x: [f64; 3]| -> [f64; 3] { times(&transposed(&c1), std::array::from_fn(|i| x[i] - h1[i])) };
             // old level in inertial axes
             let old: Vec<[f64; 3]> = instant.tip.position.iter().map(|r| to_inertial(&c0, h0, *r)).collect();
             let v_old: Vec<[f64; 3]> = field_at(&instant).into_iter().map(|v| times(&c0, v)).collect();
@@ -196,14 +215,17 @@ mod inertial {
                     let m = next.tip.marker(b, 0);
                     for k in 0..n_k {
                         let v = velocity(m + k, m + k + 1);
-                        next.tip.position[m + k + 1] = to_hub(std::array::from_fn(|i| old[m + k][i] + dt * v[i]));
+                        next.tip.position[m + k + 1] =
+                            to_hub(std::array::from_fn(|i| old[m + k][i] + dt * v[i]));
                     }
                 }
             };
             place(&|i, j| std::array::from_fn(|c| 0.5 * (v_old[i][c] + v_old[j][c])), &mut next);
             let v_new: Vec<[f64; 3]> = field_at(&next).into_iter().map(|v| times(&c1, v)).collect();
             place(
-                &|i, j| std::array::from_fn(|c| 0.25 * (v_old[i][c] + v_old[j][c] + v_new[i][c] + v_new[j][c])),
+                &|i, j| {
+                    std::array::from_fn(|c| 0.25 * (v_old[i][c] + v_old[j][c] + v_new[i][c] + v_new[j][c]))
+                },
                 &mut next,
             );
             instant = next;

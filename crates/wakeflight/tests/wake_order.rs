@@ -1,7 +1,9 @@
 //! Order and exactness of the wake solvers in prescribed velocity fields, where the solution is known.
 
 use std::f64::consts::TAU;
-use wakeflight::wake::{BladeState, Form, HubMotion, Predictor, Prescribed, RelaxationWake, Scheme, TimeMarchingWake, WakeOptions};
+use wakeflight::wake::{
+    BladeState, Form, HubMotion, Predictor, Prescribed, RelaxationWake, Scheme, TimeMarchingWake, WakeOptions,
+};
 
 type Field = Prescribed<fn([f64; 3]) -> [f64; 3]>;
 
@@ -37,7 +39,13 @@ fn hub(mu: f64, descent: f64) -> HubMotion {
     HubMotion { velocity: [-mu * OMEGA * RADIUS, 0.0, -descent * OMEGA * RADIUS], rates: [0.0; 3] }
 }
 
-fn periodic(options: &WakeOptions, hub: HubMotion, flap: f64, mean_inflow: f64, field: Field) -> RelaxationWake<Field> {
+fn periodic(
+    options: &WakeOptions,
+    hub: HubMotion,
+    flap: f64,
+    mean_inflow: f64,
+    field: Field,
+) -> RelaxationWake<Field> {
     let n = options.steps_per_revolution;
     let mut wake = RelaxationWake::with_field(options.clone(), hub, mean_inflow, field).unwrap();
     wake.set_state(hub, &vec![(flap, 0.0); n], &vec![0.0; n * options.n_stations]).unwrap();
@@ -47,14 +55,20 @@ fn periodic(options: &WakeOptions, hub: HubMotion, flap: f64, mean_inflow: f64, 
 fn blades(options: &WakeOptions, step: usize, flap: f64) -> Vec<BladeState> {
     (0..options.n_blades)
         .map(|b| BladeState {
-            psi: TAU * (step as f64 / options.steps_per_revolution as f64 + b as f64 / options.n_blades as f64),
+            psi: TAU
+                * (step as f64 / options.steps_per_revolution as f64 + b as f64 / options.n_blades as f64),
             flap,
             lead: 0.0,
         })
         .collect()
 }
 
-fn marched(start: &RelaxationWake<Field>, hub: HubMotion, flap: f64, steps: usize) -> TimeMarchingWake<Field> {
+fn marched(
+    start: &RelaxationWake<Field>,
+    hub: HubMotion,
+    flap: f64,
+    steps: usize,
+) -> TimeMarchingWake<Field> {
     let mut wake = TimeMarchingWake::from_relaxation(start, 0).unwrap();
     let options = wake.options().clone();
     let circulation = vec![0.0; options.n_blades * options.n_stations];
@@ -65,7 +79,13 @@ fn marched(start: &RelaxationWake<Field>, hub: HubMotion, flap: f64, steps: usiz
 }
 
 /// Markers of a filament released at the azimuths psi - zeta, integrated along their paths with small Runge-Kutta steps.
-fn exact_filament(options: &WakeOptions, psi: f64, flap: f64, hub: HubMotion, field: fn([f64; 3]) -> [f64; 3]) -> Vec<[f64; 3]> {
+fn exact_filament(
+    options: &WakeOptions,
+    psi: f64,
+    flap: f64,
+    hub: HubMotion,
+    field: fn([f64; 3]) -> [f64; 3],
+) -> Vec<[f64; 3]> {
     let v = |p: [f64; 3]| -> [f64; 3] {
         let (wind, induced) = (hub.wind(p), field(p));
         std::array::from_fn(|c| (wind[c] + induced[c]) / OMEGA)
@@ -75,7 +95,8 @@ fn exact_filament(options: &WakeOptions, psi: f64, flap: f64, hub: HubMotion, fi
     (0..=options.n_segments())
         .map(|k| {
             let born = psi - k as f64 * delta;
-            let mut p = [RADIUS * flap.cos() * born.cos(), RADIUS * flap.cos() * born.sin(), RADIUS * flap.sin()];
+            let mut p =
+                [RADIUS * flap.cos() * born.cos(), RADIUS * flap.cos() * born.sin(), RADIUS * flap.sin()];
             let n = (k as f64 * delta / 0.02).ceil().max(1.0) as usize;
             let h = k as f64 * delta / n as f64;
             for _ in 0..n {
@@ -93,7 +114,8 @@ fn exact_filament(options: &WakeOptions, psi: f64, flap: f64, hub: HubMotion, fi
 /// RMS and largest distance of markers, over R.
 fn errors(a: &[[f64; 3]], b: &[[f64; 3]]) -> (f64, f64) {
     assert_eq!(a.len(), b.len());
-    let squares: Vec<f64> = a.iter().zip(b).map(|(p, q)| (0..3).map(|c| (p[c] - q[c]).powi(2)).sum()).collect();
+    let squares: Vec<f64> =
+        a.iter().zip(b).map(|(p, q)| (0..3).map(|c| (p[c] - q[c]).powi(2)).sum()).collect();
     let mean = squares.iter().sum::<f64>() / squares.len() as f64;
     (mean.sqrt() / RADIUS, squares.iter().fold(0.0f64, |m, s| m.max(*s)).sqrt() / RADIUS)
 }
@@ -190,7 +212,8 @@ mod contraction {
         if let Some((scheme, form)) = scheme {
             (options.scheme, options.form) = (scheme, form);
         }
-        let mut start = periodic(&options, hub(0.0, 0.0), 0.0, 0.0, Prescribed(field as fn([f64; 3]) -> [f64; 3]));
+        let mut start =
+            periodic(&options, hub(0.0, 0.0), 0.0, 0.0, Prescribed(field as fn([f64; 3]) -> [f64; 3]));
         if scheme.is_none() {
             let norms = start.sweep(60).unwrap();
             assert!(norms.last().unwrap().all < 1e-13);
@@ -233,7 +256,8 @@ mod contraction {
         // the error of second order is removed by extrapolation from two steps
         let at = |steps: usize| {
             let options = options(steps, 3.0);
-            let mut wake = periodic(&options, hub(0.0, 0.0), 0.0, 0.0, Prescribed(field as fn([f64; 3]) -> [f64; 3]));
+            let mut wake =
+                periodic(&options, hub(0.0, 0.0), 0.0, 0.0, Prescribed(field as fn([f64; 3]) -> [f64; 3]));
             wake.sweep(60).unwrap();
             rows.map(|(psi, zeta, ..)| {
                 wake.position()[(psi * steps / 360) * (options.n_segments() + 1) + zeta * steps / 360]
@@ -267,8 +291,20 @@ mod undisturbed {
         for (mu, lambda, psi, zeta, x, y, z) in rows {
             let options = options(36, 2.0);
             // descent by the mean induced velocity of the guess, and the same by climbing without induction
-            let guess = periodic(&options, hub(mu, 0.0), 0.0, lambda, Prescribed(nothing as fn([f64; 3]) -> [f64; 3]));
-            let mut climb = periodic(&options, hub(mu, -lambda), 0.0, 0.0, Prescribed(nothing as fn([f64; 3]) -> [f64; 3]));
+            let guess = periodic(
+                &options,
+                hub(mu, 0.0),
+                0.0,
+                lambda,
+                Prescribed(nothing as fn([f64; 3]) -> [f64; 3]),
+            );
+            let mut climb = periodic(
+                &options,
+                hub(mu, -lambda),
+                0.0,
+                0.0,
+                Prescribed(nothing as fn([f64; 3]) -> [f64; 3]),
+            );
             climb.sweep(3).unwrap();
             for wake in [guess, climb] {
                 let p = wake.position()[psi / 10 * (options.n_segments() + 1) + zeta / 10];
@@ -306,7 +342,8 @@ mod undisturbed {
     fn verif_backward_differences_of_positions_contract_and_delay_the_helix() {
         // one per rev at 10 deg: 0.9918 of the amplitude and 2.7 deg of lag per turn
         let options = WakeOptions { scheme: Scheme::Pc2b, form: Form::Position, ..options(36, 4.0) };
-        let start = periodic(&options, hub(0.0, -0.03), 0.0, 0.0, Prescribed(nothing as fn([f64; 3]) -> [f64; 3]));
+        let start =
+            periodic(&options, hub(0.0, -0.03), 0.0, 0.0, Prescribed(nothing as fn([f64; 3]) -> [f64; 3]));
         let wake = marched(&start, hub(0.0, -0.03), 0.0, 10 * 36);
         let at = |k: usize| wake.position()[k];
         for turn in 1..=3 {

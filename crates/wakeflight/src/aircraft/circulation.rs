@@ -39,8 +39,11 @@ impl Aircraft {
             q_ddot: constant(blade.modal.q_ddot),
         };
         let c = &blade.control;
-        let control =
-            PitchMotion { theta: D::cst(c.theta), theta_dot: D::cst(c.theta_dot), theta_ddot: D::cst(c.theta_ddot) };
+        let control = PitchMotion {
+            theta: D::cst(c.theta),
+            theta_dot: D::cst(c.theta_dot),
+            theta_ddot: D::cst(c.theta_ddot),
+        };
         self.rotor.blade_air(
             self.air,
             &hub.constant(),
@@ -66,8 +69,13 @@ impl Aircraft {
     ) -> Result<CirculationSolution, WakeError> {
         let radius = self.rotor.blade.radius;
         // slopes are kept between -3 c and 0 (per tip speed): beyond stall the sign would turn Newton away
-        let floor: Vec<f64> =
-            self.rotor.blade.stations.iter().map(|s| -3.0 * s.geometry.chord * self.rotor.tip_speed()).collect();
+        let floor: Vec<f64> = self
+            .rotor
+            .blade
+            .stations
+            .iter()
+            .map(|s| -3.0 * s.geometry.chord * self.rotor.tip_speed())
+            .collect();
         solve_circulation(
             lambda_far,
             near_wake,

@@ -23,7 +23,16 @@ fn constant(b: &BladeLoads<f64>) -> BladeLoads<D> {
 impl Aircraft {
     /// a dF/dy + b dF/dy_dot, row-major (n, n). The solver asks for (1, c_j), the mass matrix is (0, 1).
     #[allow(clippy::too_many_arguments, reason = "the arguments of F and the two weights")]
-    pub fn jacobian(&self, t: f64, y: &[f64], y_dot: &[f64], inputs: &Inputs, a: f64, b: f64, out: &mut [f64]) {
+    pub fn jacobian(
+        &self,
+        t: f64,
+        y: &[f64],
+        y_dot: &[f64],
+        inputs: &Inputs,
+        a: f64,
+        b: f64,
+        out: &mut [f64],
+    ) {
         let n = self.layout.len();
         let hub = self.hub_motion(y, y_dot);
         let n_blades = self.rotor.n_blades;

@@ -5,9 +5,9 @@ use super::state::Layout;
 use crate::airframe::assembly::{Airframe, Parts};
 use crate::airframe::mass::MassError;
 use crate::blade::aerodynamics::Air;
+use crate::blade::error::BladeError;
 use crate::blade::kinematics::PitchMotion;
 use crate::blade::model::{Blade, Discretisation};
-use crate::blade::error::BladeError;
 use crate::inflow::pitt_peters::PittPeters;
 use crate::numerics::scalar::Real;
 use crate::rotor::hub::Rotor;
@@ -127,6 +127,10 @@ impl Aircraft {
     /// Blade pitch from the swashplate at azimuth `psi` and time `t`, with exact rates.
     pub fn blade_pitch<S: Real>(&self, inputs: &Inputs, t: f64, psi: f64) -> PitchMotion<S> {
         let p = self.rotor.rigging.blade_pitch(inputs.stick_at(t), inputs.stick_rate, psi, self.rotor.omega);
-        PitchMotion { theta: S::cst(p.theta), theta_dot: S::cst(p.theta_dot), theta_ddot: S::cst(p.theta_ddot) }
+        PitchMotion {
+            theta: S::cst(p.theta),
+            theta_dot: S::cst(p.theta_dot),
+            theta_ddot: S::cst(p.theta_ddot),
+        }
     }
 }

@@ -56,7 +56,11 @@ impl Aircraft {
             ct: self.aero_coefficients(&rotor)[0],
             beta_1c,
             beta_1s,
-            power: [-rotor.moment.z * self.rotor.omega, loads.tail_rotor_power, self.airframe.accessory_power],
+            power: [
+                -rotor.moment.z * self.rotor.omega,
+                loads.tail_rotor_power,
+                self.airframe.accessory_power,
+            ],
             ..Outputs::default()
         };
         for b in 0..n_blades {

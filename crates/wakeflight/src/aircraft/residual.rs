@@ -25,8 +25,12 @@ pub struct RotorLoads<S> {
 impl<S: Real> RotorLoads<S> {
     /// Sum over blades.
     pub fn sum(blades: &[BladeLoads<S>]) -> Self {
-        let mut total =
-            Self { force: Vec3::zero(), moment: Vec3::zero(), aero_force: Vec3::zero(), aero_moment: Vec3::zero() };
+        let mut total = Self {
+            force: Vec3::zero(),
+            moment: Vec3::zero(),
+            aero_force: Vec3::zero(),
+            aero_moment: Vec3::zero(),
+        };
         for b in blades {
             total.force += b.force;
             total.moment += b.moment;
@@ -122,7 +126,8 @@ impl Aircraft {
         let n = self.rotor.n_blades;
         let (mut cosine, mut sine) = (S::zero(), S::zero());
         for b in 0..n {
-            let flap = y[self.layout.modal(b).start + self.rotor.blade.flap_mode] * self.flap_per_coordinate();
+            let flap =
+                y[self.layout.modal(b).start + self.rotor.blade.flap_mode] * self.flap_per_coordinate();
             let (s, c) = self.rotor.azimuth(self.rotor.omega * t, b).sin_cos();
             cosine += flap * (2.0 * c / n as f64);
             sine += flap * (2.0 * s / n as f64);
@@ -146,7 +151,13 @@ impl Aircraft {
     }
 
     /// Rotor, fuselage, tail surfaces and tail rotor on the body origin.
-    pub fn airframe_loads<S: Real>(&self, t: f64, y: &[S], inputs: &Inputs, rotor: &RotorLoads<S>) -> AirframeLoads<S> {
+    pub fn airframe_loads<S: Real>(
+        &self,
+        t: f64,
+        y: &[S],
+        inputs: &Inputs,
+        rotor: &RotorLoads<S>,
+    ) -> AirframeLoads<S> {
         if matches!(inputs.inflow, HeldInflow::Vacuum) {
             let to_body = self.rotor.rot_hb::<S>().transposed();
             let hub_force = to_body * rotor.force;
@@ -163,7 +174,15 @@ impl Aircraft {
         let tail_inflow = if self.layout.tail_rotor { y[self.layout.tail_inflow().start] } else { S::zero() };
         let incidence = S::cst(inputs.stabilator_incidence);
         let beta_1c = self.flap_multiblade(t, y)[0];
-        self.loads_on_airframe(y, rotor, self.mean_inflow(y, inputs), beta_1c, incidence, theta_tr, tail_inflow)
+        self.loads_on_airframe(
+            y,
+            rotor,
+            self.mean_inflow(y, inputs),
+            beta_1c,
+            incidence,
+            theta_tr,
+            tail_inflow,
+        )
     }
 
     /// Rotor loads and air loads on the body origin.
@@ -285,8 +304,8 @@ impl Aircraft {
     /// C_T, C_L (right side down +), C_M (nose up +) of the air loads.
     pub fn aero_coefficients<S: Real>(&self, rotor: &RotorLoads<S>) -> [S; 3] {
         let radius = self.rotor.blade.radius;
-        let scale =
-            1.0 / (self.air.density * std::f64::consts::PI * radius * radius * self.rotor.tip_speed().powi(2));
+        let scale = 1.0
+            / (self.air.density * std::f64::consts::PI * radius * radius * self.rotor.tip_speed().powi(2));
         // hub axes, x aft and y right: right side down is a moment about -x, nose up about +y
         [
             rotor.aero_force.z * scale,

@@ -91,9 +91,10 @@ impl TrimLayout {
     }
     /// Name of every equation.
     pub fn equations(&self) -> Vec<String> {
-        let mut names: Vec<String> = ["force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z", "convention"]
-            .map(String::from)
-            .to_vec();
+        let mut names: Vec<String> =
+            ["force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z", "convention"]
+                .map(String::from)
+                .to_vec();
         if self.dynamic_inflow {
             names.extend(["inflow_0", "inflow_1s", "inflow_1c"].map(String::from));
         }
@@ -150,7 +151,8 @@ impl Aircraft {
         let (roll, pitch, yaw) = (x[a], x[a + 1], x[a + 2]);
         let attitude = quaternion(roll, pitch, yaw);
         let (climb, forward) = problem.flight_path.sin_cos();
-        let velocity = rot_ib(attitude).transposed() * Vec3::cst([problem.speed * forward, 0.0, -problem.speed * climb]);
+        let velocity =
+            rot_ib(attitude).transposed() * Vec3::cst([problem.speed * forward, 0.0, -problem.speed * climb]);
         let (sp, cp) = pitch.sin_cos();
         let (sr, cr) = roll.sin_cos();
         let turn = S::cst(problem.turn_rate);
@@ -198,7 +200,14 @@ impl Aircraft {
             let psi = std::f64::consts::TAU * l as f64 / n as f64;
             let modal = self.periodic_motion(&layout, x, psi);
             let control = self.cyclic_pitch(&pitch, psi);
-            let loads = self.rotor.blade_loads(self.air, &hub, psi, &modal, &control, &self.trim_blade_inflow(problem, &y, l));
+            let loads = self.rotor.blade_loads(
+                self.air,
+                &hub,
+                psi,
+                &modal,
+                &control,
+                &self.trim_blade_inflow(problem, &y, l),
+            );
             let share = self.rotor.n_blades as f64 / n as f64;
             mean.force += loads.force.scaled(share);
             mean.moment += loads.moment.scaled(share);
@@ -232,7 +241,8 @@ impl Aircraft {
         let rotor = RotorLoads::sum(std::slice::from_ref(mean));
         // the first harmonic of the flap mode is what the blades share as beta_1c
         let flap = layout.mode(self.rotor.blade.flap_mode);
-        let beta_1c = if layout.n_harmonics > 0 { x[flap + 1] * self.flap_per_coordinate() } else { S::zero() };
+        let beta_1c =
+            if layout.n_harmonics > 0 { x[flap + 1] * self.flap_per_coordinate() } else { S::zero() };
         let mean_inflow = match &problem.inflow {
             TrimInflow::Dynamic => x[layout.inflow()],
             TrimInflow::Map { mean, .. } => S::cst(*mean),
@@ -242,8 +252,13 @@ impl Aircraft {
         let loads = self.trim_airframe_loads(problem, y, &rotor, mean_inflow, beta_1c, stick, tail_inflow);
         let velocity = super::state::body_vector(y, Layout::VELOCITY);
         let rates = super::state::body_vector(y, Layout::RATES);
-        let (inertia_force, inertia_moment) =
-            self.airframe.mass.inertial_residual(velocity, rates, Vec3::zero(), Vec3::zero(), self.gravity_b(y));
+        let (inertia_force, inertia_moment) = self.airframe.mass.inertial_residual(
+            velocity,
+            rates,
+            Vec3::zero(),
+            Vec3::zero(),
+            self.gravity_b(y),
+        );
         let force = (loads.force + inertia_force).array();
         let moment = (loads.moment + inertia_moment).array();
         for i in 0..3 {
@@ -283,7 +298,15 @@ impl Aircraft {
         tail_inflow: S,
     ) -> super::residual::AirframeLoads<S> {
         let incidence = self.trim_stabilator(problem, stick[2], y[4]);
-        self.loads_on_airframe(y, rotor, mean_inflow, beta_1c, incidence, self.rotor.rigging.pitch(stick)[3], tail_inflow)
+        self.loads_on_airframe(
+            y,
+            rotor,
+            mean_inflow,
+            beta_1c,
+            incidence,
+            self.rotor.rigging.pitch(stick)[3],
+            tail_inflow,
+        )
     }
 
     /// Equivalent angle of a modal force: the static answer of the mode, its tip (or twist) as an angle.
@@ -310,7 +333,12 @@ impl Aircraft {
         }
     }
 
-    fn trim_blade_inflow<'a, S: Real>(&self, problem: &'a TrimProblem, y: &[S], l: usize) -> BladeInflow<'a, S> {
+    fn trim_blade_inflow<'a, S: Real>(
+        &self,
+        problem: &'a TrimProblem,
+        y: &[S],
+        l: usize,
+    ) -> BladeInflow<'a, S> {
         match &problem.inflow {
             TrimInflow::Dynamic => {
                 let i = self.layout.inflow().start;

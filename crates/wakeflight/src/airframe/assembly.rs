@@ -77,7 +77,12 @@ pub struct AirLoads<S: Copy> {
 
 impl<S: Real> AirLoads<S> {
     fn none() -> Self {
-        Self { force: Vec3::zero(), moment: Vec3::zero(), tail_rotor_power: S::zero(), tail_inflow_rate: S::zero() }
+        Self {
+            force: Vec3::zero(),
+            moment: Vec3::zero(),
+            tail_rotor_power: S::zero(),
+            tail_inflow_rate: S::zero(),
+        }
     }
     fn add(&mut self, position: [f64; 3], force: Vec3<S, Body>) {
         self.force += force;
@@ -160,7 +165,10 @@ impl Airframe {
             if let Some(w) = &wash {
                 local += w.stabilator;
             }
-            total.add(stabilator.position, stabilator.stabilator_force(local, controls.stabilator_incidence, density));
+            total.add(
+                stabilator.position,
+                stabilator.stabilator_force(local, controls.stabilator_incidence, density),
+            );
         }
         if let Some(fin) = &self.fin {
             let mut local = fuselage_wash.at_fin(velocity) + swing(fin.position);
@@ -185,7 +193,11 @@ impl Airframe {
         match (&self.stabilator_schedule, &self.stabilator) {
             (Some(schedule), _) => {
                 let equivalent = speed * (density / SEA_LEVEL_DENSITY).sqrt() / KNOT;
-                schedule.incidence(S::cst(equivalent), collective * (100.0 / schedule.collective_travel), pitch_rate)
+                schedule.incidence(
+                    S::cst(equivalent),
+                    collective * (100.0 / schedule.collective_travel),
+                    pitch_rate,
+                )
             }
             (None, Some(surface)) => S::cst(surface.incidence),
             (None, None) => S::zero(),

@@ -66,7 +66,14 @@ impl Interference {
     ///
     /// u += ekx v_i, w -= ekz v_i, v_i = lambda_0 Omega R, tables of chi = atan2(mu_x, |lambda_0 - mu_z|) - beta_1c and
     /// of a_1f = -beta_1c, both held beyond the table [howlett1981]. `beta_1c` [rad]: disk forward-down +.
-    pub fn rotor_wash<S: Real>(&self, lambda_0: S, mu_x: S, mu_z: S, beta_1c: S, tip_speed: f64) -> RotorWash<S> {
+    pub fn rotor_wash<S: Real>(
+        &self,
+        lambda_0: S,
+        mu_x: S,
+        mu_z: S,
+        beta_1c: S,
+        tip_speed: f64,
+    ) -> RotorWash<S> {
         let induced = lambda_0 * tip_speed;
         let down = |factor: f64| Vec3::new(S::zero(), S::zero(), induced * -factor);
         match self {

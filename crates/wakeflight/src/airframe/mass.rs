@@ -49,7 +49,9 @@ pub struct AirframeMass {
 /// Inertia matrix of a point mass.
 fn point_inertia(mass: f64, r: [f64; 3]) -> [[f64; 3]; 3] {
     let squared = r.iter().map(|x| x * x).sum::<f64>();
-    std::array::from_fn(|i| std::array::from_fn(|j| mass * (if i == j { squared } else { 0.0 } - r[i] * r[j])))
+    std::array::from_fn(|i| {
+        std::array::from_fn(|j| mass * (if i == j { squared } else { 0.0 } - r[i] * r[j]))
+    })
 }
 
 fn times<S: Real>(matrix: &[[f64; 3]; 3], v: Vec3<S, Body>) -> Vec3<S, Body> {
@@ -77,7 +79,8 @@ impl AirframeMass {
         let cg = hub_position.map(|r| -blades / mass * r);
         let inertia_cg = [[ixx, 0.0, -ixz], [0.0, iyy, 0.0], [-ixz, 0.0, izz]];
         let offset = point_inertia(mass, cg);
-        let inertia_origin = std::array::from_fn(|i| std::array::from_fn(|j| inertia_cg[i][j] + offset[i][j]));
+        let inertia_origin =
+            std::array::from_fn(|i| std::array::from_fn(|j| inertia_cg[i][j] + offset[i][j]));
         Ok(Self { mass, cg, inertia_cg, inertia_origin })
     }
 
@@ -95,10 +98,8 @@ impl AirframeMass {
         gravity_b: Vec3<S, Body>,
     ) -> (Vec3<S, Body>, Vec3<S, Body>) {
         let cg = Vec3::cst(self.cg);
-        let acceleration = velocity_dot
-            + rates_b.cross(velocity_b)
-            + rates_dot.cross(cg)
-            + rates_b.cross(rates_b.cross(cg));
+        let acceleration =
+            velocity_dot + rates_b.cross(velocity_b) + rates_dot.cross(cg) + rates_b.cross(rates_b.cross(cg));
         let force = (gravity_b - acceleration).scaled(self.mass);
         let spin = times(&self.inertia_cg, rates_dot) + rates_b.cross(times(&self.inertia_cg, rates_b));
         (force, cg.cross(force) - spin)
@@ -149,7 +150,11 @@ mod tests {
         let published = [7750.94, 53739.607, 49978.839, -2192.0865];
         for (k, (i, j)) in [(0, 0), (1, 1), (2, 2), (0, 2)].into_iter().enumerate() {
             let share = published[k] - airframe[k];
-            assert!((gross(i, j) - airframe[k] - share).abs() < 2e-4 * share.abs(), "{i}{j}: {}", gross(i, j));
+            assert!(
+                (gross(i, j) - airframe[k] - share).abs() < 2e-4 * share.abs(),
+                "{i}{j}: {}",
+                gross(i, j)
+            );
         }
     }
 

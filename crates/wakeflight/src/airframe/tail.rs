@@ -58,7 +58,12 @@ impl Surface {
     ///
     /// Lift and drag in the local u-w plane: alpha = atan2(w, u) + incidence, q = rho (u^2 + w^2)/2; tables held beyond
     /// their ends (reversed flow sees the coefficients of flow along the normal).
-    pub fn stabilator_force<S: Real>(&self, velocity: Vec3<S, Body>, incidence: S, density: f64) -> Vec3<S, Body> {
+    pub fn stabilator_force<S: Real>(
+        &self,
+        velocity: Vec3<S, Body>,
+        incidence: S,
+        density: f64,
+    ) -> Vec3<S, Body> {
         let (u, w) = (velocity.x, velocity.z);
         let alpha = w.atan2(u) + incidence;
         let (cl, cd) = (self.cl.at(alpha), self.cd.at(alpha));

@@ -78,7 +78,9 @@ impl TailRotor {
         let by_inflow = mu_squared / 4.0 + b * b / 2.0;
         let half_slope = 0.5 * self.lift_curve_slope * self.solidity;
         let thrust_unit = density * PI * self.radius.powi(2) * tip_speed * tip_speed;
-        let uncoupled = ((theta_tr + self.pitch_bias) * by_pitch + by_twist * self.twist - lambda * by_inflow) * half_slope;
+        let uncoupled = ((theta_tr + self.pitch_bias) * by_pitch + by_twist * self.twist
+            - lambda * by_inflow)
+            * half_slope;
         let ct = uncoupled / (by_pitch * (half_slope * self.pitch_per_thrust * thrust_unit) + 1.0);
 
         // the small number keeps the root differentiable at rest

@@ -83,7 +83,8 @@ pub fn section_air<S: Real>(
     let pitch_damping = pitch_rate
         * speed
         * (-std::f64::consts::PI / 16.0 * air.density * station.chord.powi(3) * station.lift_width);
-    let about_quarter = cm * speed * speed * (half_rho_c * station.chord * station.lift_width) + pitch_damping;
+    let about_quarter =
+        cm * speed * speed * (half_rho_c * station.chord * station.lift_width) + pitch_damping;
     let moment = t * about_quarter + c.cross(force) * S::cst(station.quarter);
 
     SectionAir { alpha, mach, speed, cl, circulation: cl * speed * (0.5 * station.chord), force, moment }

@@ -30,8 +30,7 @@ impl<const N: usize> Jet<N> {
         for i in 0..N {
             out.gradient[i] = df * self.gradient[i];
             for j in 0..N {
-                out.hessian[i][j] =
-                    df * self.hessian[i][j] + ddf * self.gradient[i] * self.gradient[j];
+                out.hessian[i][j] = df * self.hessian[i][j] + ddf * self.gradient[i] * self.gradient[j];
             }
         }
         out

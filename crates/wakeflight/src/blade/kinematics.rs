@@ -113,7 +113,12 @@ pub(crate) fn combine<S: Real>(shape: &[f64], q: &[S], n_modes: usize) -> S {
 impl StationShapes {
     /// Motion of the section for modal coordinates `m` and total pitch without elastic part `pitch` (control + twist).
     #[inline(always)]
-    pub fn motion<S: Real>(&self, n_modes: usize, m: &ModalMotion<S>, pitch: &PitchMotion<S>) -> SectionMotion<S> {
+    pub fn motion<S: Real>(
+        &self,
+        n_modes: usize,
+        m: &ModalMotion<S>,
+        pitch: &PitchMotion<S>,
+    ) -> SectionMotion<S> {
         let k = n_modes;
         // foreshortening u = -[l (1 - sqrt(1 - S/l)) + c.q], S = q.U q over the length l, with its rates
         let mut slopes = [S::zero(); MAX_MODES];
@@ -179,7 +184,8 @@ impl StationShapes {
         let swing = e_z * l_dot - c0 * b_dot;
         let omega = swing + t * theta_dot;
         let c0_dot = Vec3::new(-(cos_l * l_dot), -(sin_l * l_dot), S::zero());
-        let omega_dot = e_z * l_ddot - c0 * b_ddot - c0_dot * b_dot + t * theta_ddot + swing.cross(t) * theta_dot;
+        let omega_dot =
+            e_z * l_ddot - c0 * b_ddot - c0_dot * b_dot + t * theta_ddot + swing.cross(t) * theta_dot;
 
         SectionMotion {
             position,

@@ -93,11 +93,7 @@ impl<S: Real> Carrier<S> {
         let (s, c) = psi.sin_cos();
         let (sp, cp) = precone.sin_cos();
         let zero = S::zero();
-        let to_blade = [
-            [c * cp, s * cp, S::cst(sp)],
-            [-s, c, zero],
-            [-(c * sp), -(s * sp), S::cst(cp)],
-        ];
+        let to_blade = [[c * cp, s * cp, S::cst(sp)], [-s, c, zero], [-(c * sp), -(s * sp), S::cst(cp)]];
         let turn = |v: Vec3<S, Hub>| {
             let row = |r: &[S; 3]| r[0] * v.x + r[1] * v.y + r[2] * v.z;
             Vec3::new(row(&to_blade[0]), row(&to_blade[1]), row(&to_blade[2]))
@@ -155,7 +151,14 @@ impl Blade {
             inertial.add(motion.position, force, moment);
             let mut gradient = [S::zero(); MAX_MODES];
             let pitch = control.theta + point.twist;
-            add_strain_gradient(&point.shapes, &point.stiffness, self.n_modes, &modal.q, pitch, &mut gradient);
+            add_strain_gradient(
+                &point.shapes,
+                &point.stiffness,
+                self.n_modes,
+                &modal.q,
+                pitch,
+                &mut gradient,
+            );
             for i in 0..self.n_modes {
                 work[i] -= gradient[i];
             }
@@ -224,8 +227,9 @@ impl Blade {
                 + m.c * (v.dot(m.c) * point.inertia[1])
                 + m.n * (v.dot(m.n) * point.inertia[2])
         };
-        let moment =
-            -(m.c.cross(acceleration).scaled(point.first_moment) + inertia(omega_dot) + omega.cross(inertia(omega)));
+        let moment = -(m.c.cross(acceleration).scaled(point.first_moment)
+            + inertia(omega_dot)
+            + omega.cross(inertia(omega)));
         (m, force, moment)
     }
 
@@ -243,13 +247,20 @@ impl Blade {
         let m = station.shapes.motion(self.n_modes, modal, &pitch);
         let lambda = self.inflow_at(inflow, carrier, &m, j);
         let tip_speed = environment.rotor_speed * self.radius;
-        let wind = -(carrier.velocity + carrier.omega.cross(m.position) + m.velocity) - carrier.up * (lambda * tip_speed);
+        let wind = -(carrier.velocity + carrier.omega.cross(m.position) + m.velocity)
+            - carrier.up * (lambda * tip_speed);
         let omega = carrier.omega + m.omega;
         let air = section_air(environment.airfoil, &environment.air, &station.geometry, &m, wind, omega);
         (m, air)
     }
 
-    fn inflow_at<S: Real>(&self, inflow: &BladeInflow<S>, carrier: &Carrier<S>, m: &SectionMotion<S>, j: usize) -> S {
+    fn inflow_at<S: Real>(
+        &self,
+        inflow: &BladeInflow<S>,
+        carrier: &Carrier<S>,
+        m: &SectionMotion<S>,
+        j: usize,
+    ) -> S {
         match inflow {
             BladeInflow::Disk([mean, sine, cosine]) => {
                 let place = carrier.to_hub(m.position);
@@ -279,7 +290,8 @@ impl Blade {
     fn add_root_loads<S: Real>(&self, modal: &ModalMotion<S>, work: &mut [S; MAX_MODES]) {
         let wind_up = combine(&self.root_twist, &modal.q, self.n_modes);
         for i in 0..self.n_modes {
-            work[i] -= wind_up * (self.control_stiffness * self.root_twist[i]) + modal.q_dot[i] * self.damping[i];
+            work[i] -=
+                wind_up * (self.control_stiffness * self.root_twist[i]) + modal.q_dot[i] * self.damping[i];
         }
     }
 }

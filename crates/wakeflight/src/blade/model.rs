@@ -2,8 +2,8 @@
 
 use super::MAX_MODES;
 use super::aerodynamics::StationGeometry;
-use super::kinematics::StationShapes;
 use super::error::BladeError;
+use super::kinematics::StationShapes;
 use super::modes::BladeModes;
 use super::quadrature::gauss_points;
 use super::section::BladeProperties;
@@ -146,7 +146,8 @@ struct Shaper<'a> {
 
 impl<'a> Shaper<'a> {
     fn new(properties: &'a BladeProperties, modes: &'a BladeModes, n_modes: usize) -> Self {
-        let mut shaper = Self { modes, n_modes, tan_delta3: properties.delta3.tan(), nodes: Vec::new(), properties };
+        let mut shaper =
+            Self { modes, n_modes, tan_delta3: properties.delta3.tan(), nodes: Vec::new(), properties };
         let mut here = shaper.bare(properties.root_station);
         let mut nodes = vec![(properties.root_station, here.clone())];
         for (a, b, _) in modes.pieces() {
@@ -192,8 +193,8 @@ impl<'a> Shaper<'a> {
             let twist_slope = slope(&self.properties.twist, x);
             for i in 0..self.n_modes {
                 for j in 0..self.n_modes {
-                    shapes.shortening[i][j] +=
-                        weight * (s.dv[i] * s.dv[j] + s.dw[i] * s.dw[j] + area_radius2 * s.dphi[i] * s.dphi[j]);
+                    shapes.shortening[i][j] += weight
+                        * (s.dv[i] * s.dv[j] + s.dw[i] * s.dw[j] + area_radius2 * s.dphi[i] * s.dphi[j]);
                 }
                 shapes.shortening_twist[i] += weight * area_radius2 * twist_slope * s.dphi[i];
             }
@@ -237,7 +238,12 @@ fn slope(table: &crate::numerics::tables::Table, x: f64) -> f64 {
 
 /// Quadrature points of the structure: per element the Gauss-Legendre points, with weights that integrate the
 /// piecewise constant properties times polynomials of degree n_gauss - 1 exactly, so that no step is smeared.
-fn structural_points(p: &BladeProperties, modes: &BladeModes, shaper: &Shaper, d: &Discretisation) -> Vec<StructuralPoint> {
+fn structural_points(
+    p: &BladeProperties,
+    modes: &BladeModes,
+    shaper: &Shaper,
+    d: &Discretisation,
+) -> Vec<StructuralPoint> {
     let length = (p.radius - p.root_station) / d.n_elements as f64;
     let pieces = modes.pieces();
     let s = &p.structure;
@@ -249,7 +255,9 @@ fn structural_points(p: &BladeProperties, modes: &BladeModes, shaper: &Shaper, d
         let abscissae: Vec<f64> = gauss_points(d.n_gauss, a, b).into_iter().map(|(x, _)| x).collect();
         // eight property integrals per point: mass, first moment, three inertias, three stiffnesses
         let mut sums = vec![[0.0; 8]; d.n_gauss];
-        for &(start, end, segment) in pieces.iter().filter(|(x0, x1, _)| 0.5 * (x0 + x1) > a && 0.5 * (x0 + x1) < b) {
+        for &(start, end, segment) in
+            pieces.iter().filter(|(x0, x1, _)| 0.5 * (x0 + x1) > a && 0.5 * (x0 + x1) < b)
+        {
             let massless = start < s.r_in[segment] - 1e-12;
             let m = if massless { 0.0 } else { s.mass[segment] };
             let i_theta = if massless { 0.0 } else { s.i_theta[segment] };
@@ -300,7 +308,9 @@ fn lagrange(abscissae: &[f64], i: usize, x: f64) -> f64 {
 /// Edges of the aerodynamic elements, r0 + (R - r0) sin(pi j / 2N) [m].
 pub fn station_edges(root_cutout: f64, radius: f64, n: usize) -> Vec<f64> {
     (0..=n)
-        .map(|j| root_cutout + (radius - root_cutout) * (std::f64::consts::FRAC_PI_2 * j as f64 / n as f64).sin())
+        .map(|j| {
+            root_cutout + (radius - root_cutout) * (std::f64::consts::FRAC_PI_2 * j as f64 / n as f64).sin()
+        })
         .collect()
 }
 

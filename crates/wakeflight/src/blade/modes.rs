@@ -179,7 +179,8 @@ fn eigenmodes(
     n_modes: usize,
 ) -> Result<(Vec<f64>, DMatrix<f64>), BladeError> {
     let not_solved = |reason| BladeError::NotSolved { reason };
-    let (shift, cholesky) = shifted(mass, stiffness, omega).ok_or(not_solved("stiffness not positive where there is no mass"))?;
+    let (shift, cholesky) =
+        shifted(mass, stiffness, omega).ok_or(not_solved("stiffness not positive where there is no mass"))?;
     let lower = cholesky.l();
     let half = lower.solve_lower_triangular(mass).ok_or(not_solved("first substitution"))?;
     let symmetric =
@@ -188,8 +189,7 @@ fn eigenmodes(
     if symmetric.iter().any(|value| !value.is_finite()) {
         return Err(not_solved("not finite"));
     }
-    let eigen =
-        SymmetricEigen::try_new(symmetric, f64::EPSILON, 0).ok_or(not_solved("no convergence"))?;
+    let eigen = SymmetricEigen::try_new(symmetric, f64::EPSILON, 0).ok_or(not_solved("no convergence"))?;
 
     let mut order: Vec<usize> = (0..eigen.eigenvalues.len()).collect();
     order.sort_by(|&a, &b| eigen.eigenvalues[b].total_cmp(&eigen.eigenvalues[a]));

@@ -132,11 +132,7 @@ impl BladeProperties {
     /// Refuses data that describe no blade, naming the entry.
     pub fn check(&self) -> Result<(), BladeError> {
         let value = |field, value: f64, allowed, good: bool| {
-            if good && value.is_finite() {
-                Ok(())
-            } else {
-                Err(BladeError::Value { field, value, allowed })
-            }
+            if good && value.is_finite() { Ok(()) } else { Err(BladeError::Value { field, value, allowed }) }
         };
         value("root_station", self.root_station, "not negative", self.root_station >= 0.0)?;
         value("radius", self.radius, "more than root_station", self.radius > self.root_station)?;

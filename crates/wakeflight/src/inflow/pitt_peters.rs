@@ -193,7 +193,8 @@ mod tests {
                 x[i] = Dual::variable(v, i);
             }
             let c = Dual::<3>::cst;
-            let disk = DiskCondition { ct: c(ct), cl: c(0.0), cm: c(0.0), mu_x: c(0.0), mu_y: c(0.0), mu_z: c(0.0) };
+            let disk =
+                DiskCondition { ct: c(ct), cl: c(0.0), cm: c(0.0), mu_x: c(0.0), mu_y: c(0.0), mu_z: c(0.0) };
             model.inflow_dot(x, disk, omega)
         };
         for (apparent_mass, m11) in
@@ -280,7 +281,10 @@ mod tests {
                     let (up, down) = (f(up), f(down));
                     for k in 0..3 {
                         let difference = (up[k] - down[k]) / (2.0 * h);
-                        assert!((d[k].eps[i] - difference).abs() < 1e-5 * (1.0 + difference.abs()), "{i} {k}");
+                        assert!(
+                            (d[k].eps[i] - difference).abs() < 1e-5 * (1.0 + difference.abs()),
+                            "{i} {k}"
+                        );
                     }
                 }
             }
@@ -294,7 +298,9 @@ mod tests {
 
     #[test]
     fn a_rotor_at_rest_in_still_air_has_finite_rates_and_derivatives() {
-        for model in [PittPeters::default(), PittPeters { mass_flow: MassFlow::State, ..PittPeters::default() }] {
+        for model in
+            [PittPeters::default(), PittPeters { mass_flow: MassFlow::State, ..PittPeters::default() }]
+        {
             let d = evaluate(model, std::array::from_fn(|i| Dual::<9>::variable(0.0, i)));
             for k in d {
                 assert!(k.re == 0.0 && k.eps.iter().all(|e| e.is_finite()));

@@ -73,11 +73,7 @@ impl<S: Real, F> Vec3<S, F> {
     /// Vector product.
     #[inline(always)]
     pub fn cross(self, o: Self) -> Self {
-        Self::new(
-            self.y * o.z - self.z * o.y,
-            self.z * o.x - self.x * o.z,
-            self.x * o.y - self.y * o.x,
-        )
+        Self::new(self.y * o.z - self.z * o.y, self.z * o.x - self.x * o.z, self.x * o.y - self.y * o.x)
     }
     /// Length; the derivative is infinite at zero.
     #[inline(always)]
@@ -181,11 +177,7 @@ pub fn rot_hb<S: Real>(tilt_forward: f64, tilt_lateral: f64) -> Rotation<S, Hub,
     let (st, ct) = (-tilt_forward).sin_cos();
     let (sp, cp) = tilt_lateral.sin_cos();
     // shaft frame with z down, then x and z turned round
-    let t = [
-        [ct, 0.0, -st],
-        [st * sp, cp, ct * sp],
-        [st * cp, -sp, ct * cp],
-    ];
+    let t = [[ct, 0.0, -st], [st * sp, cp, ct * sp], [st * cp, -sp, ct * cp]];
     let c = S::cst;
     Rotation::from_rows([
         [c(-t[0][0]), c(-t[0][1]), c(-t[0][2])],

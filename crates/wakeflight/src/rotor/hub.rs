@@ -58,7 +58,8 @@ impl Rotor {
         HubMotion {
             velocity: r * (velocity_b + swing),
             acceleration_less_gravity: r
-                * (velocity_dot + rates_b.cross(velocity_b) + rates_dot.cross(arm) + rates_b.cross(swing) - gravity_b),
+                * (velocity_dot + rates_b.cross(velocity_b) + rates_dot.cross(arm) + rates_b.cross(swing)
+                    - gravity_b),
             omega: r * rates_b,
             omega_dot: r * rates_dot,
         }
@@ -105,7 +106,12 @@ impl Rotor {
     }
 
     /// Virtual work of damper and hinge spring: they act between hub and blade and pass no load on.
-    fn add_damper<S: Real>(&self, modal: &ModalMotion<S>, control: &PitchMotion<S>, work: &mut [S; MAX_MODES]) {
+    fn add_damper<S: Real>(
+        &self,
+        modal: &ModalMotion<S>,
+        control: &PitchMotion<S>,
+        work: &mut [S; MAX_MODES],
+    ) {
         let Some(damper) = &self.lag_damper else { return };
         let (blade, n) = (&self.blade, self.blade.n_modes);
         let m = blade.root.motion(n, modal, control);

@@ -104,7 +104,8 @@ mod tests {
     /// Published stroke per radian at 4 deg lag and 2.8 deg flap.
     #[test]
     fn stroke_per_angle_is_the_published_one() {
-        let g = |theta: f64| damper().length_and_gradient(deg(-4.0), deg(2.8), deg(theta)).1.map(|v| v / INCH);
+        let g =
+            |theta: f64| damper().length_and_gradient(deg(-4.0), deg(2.8), deg(theta)).1.map(|v| v / INCH);
         let at17 = g(17.0);
         // printed as 8.85; 8.856 agrees with the published 9800 ft lb/(rad/s), so the last digit was cut
         assert!((at17[0] - 8.856).abs() < 0.0005, "dL/dlead {}", at17[0]);

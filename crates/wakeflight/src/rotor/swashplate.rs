@@ -46,7 +46,13 @@ impl Rigging {
     ///
     /// theta = theta_0 + theta_1c cos(psi + D) + theta_1s sin(psi + D), psi_dot = `omega` [rad/s] constant;
     /// stick histories are piecewise linear, so the sticks have no second derivative between their corners.
-    pub fn blade_pitch<S: Real>(&self, stick: [S; 4], stick_rate: [S; 4], psi: S, omega: f64) -> BladePitch<S> {
+    pub fn blade_pitch<S: Real>(
+        &self,
+        stick: [S; 4],
+        stick_rate: [S; 4],
+        psi: S,
+        omega: f64,
+    ) -> BladePitch<S> {
         let [theta_1c, theta_1s, theta_0, _] = self.pitch(stick);
         let [rate_1c, rate_1s, rate_0, _] = self.pitch_rate(stick_rate);
         let (s, c) = (psi + self.phase).sin_cos();

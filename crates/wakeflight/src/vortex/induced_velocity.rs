@@ -114,7 +114,9 @@ impl Segments {
     fn strands(&self, core: Core) -> Strands {
         let mut strands = Strands::with_capacity(self.start.len());
         let ends = self.start.iter().zip(&self.end);
-        for ((start, end), (circulation, core_radius)) in ends.zip(self.circulation.iter().zip(&self.core_radius)) {
+        for ((start, end), (circulation, core_radius)) in
+            ends.zip(self.circulation.iter().zip(&self.core_radius))
+        {
             strands.push(*start, *end, *circulation, *core_radius, core == Core::Singular);
         }
         strands
@@ -150,7 +152,9 @@ fn add(
         Core::Vatistas2 => modelled::<Vatistas2>(points, strands, core_distance, instruction_set, velocity),
         Core::Rankine => modelled::<Rankine>(points, strands, core_distance, instruction_set, velocity),
         Core::LambOseen => modelled::<LambOseen>(points, strands, core_distance, instruction_set, velocity),
-        Core::RosenheadMoore => modelled::<RosenheadMoore>(points, strands, core_distance, instruction_set, velocity),
+        Core::RosenheadMoore => {
+            modelled::<RosenheadMoore>(points, strands, core_distance, instruction_set, velocity)
+        }
     }
 }
 

@@ -94,11 +94,7 @@ fn over_sources<S: Simd, R: Roots<S>, M: Model, const TO_SEGMENT: bool>(
 }
 
 #[inline(always)]
-fn from_node<S: Simd, R: Roots<S>>(
-    on: Lanes<S, R>,
-    points: &Vectors<S>,
-    node: &[f64; 3],
-) -> FromNode<S> {
+fn from_node<S: Simd, R: Roots<S>>(on: Lanes<S, R>, points: &Vectors<S>, node: &[f64; 3]) -> FromNode<S> {
     let separation = [0, 1, 2].map(|axis| on.sub(points[axis], on.splat(node[axis])));
     let distance_sq = dot(on, &separation, &separation);
     let distance = on.sqrt(on.max(distance_sq, on.splat(LEAST_SQUARE)));
@@ -106,20 +102,12 @@ fn from_node<S: Simd, R: Roots<S>>(
 }
 
 #[inline(always)]
-fn dot<S: Simd, R: Roots<S>>(
-    on: Lanes<S, R>,
-    a: &Vectors<S>,
-    b: &Vectors<S>,
-) -> S::f64s {
+fn dot<S: Simd, R: Roots<S>>(on: Lanes<S, R>, a: &Vectors<S>, b: &Vectors<S>) -> S::f64s {
     on.mul_add(a[0], b[0], on.mul_add(a[1], b[1], on.mul(a[2], b[2])))
 }
 
 #[inline(always)]
-fn cross<S: Simd, R: Roots<S>>(
-    on: Lanes<S, R>,
-    a: &Vectors<S>,
-    b: &Vectors<S>,
-) -> Vectors<S> {
+fn cross<S: Simd, R: Roots<S>>(on: Lanes<S, R>, a: &Vectors<S>, b: &Vectors<S>) -> Vectors<S> {
     [(1, 2), (2, 0), (0, 1)].map(|(i, j)| on.sub_mul(on.mul(a[i], b[j]), a[j], b[i]))
 }
 

@@ -28,33 +28,21 @@ impl<S: Simd> Roots<S> for Exact {
 
 /// One Newton step for 1 / sqrt(x); an error e of the estimate becomes 3/2 e^2.
 #[inline(always)]
-fn newton_step<S: Simd, R: Roots<S>>(
-    on: Lanes<S, R>,
-    half_x: S::f64s,
-    estimate: S::f64s,
-) -> S::f64s {
+fn newton_step<S: Simd, R: Roots<S>>(on: Lanes<S, R>, half_x: S::f64s, estimate: S::f64s) -> S::f64s {
     let half_defect = on.sub_mul(on.splat(0.5), on.mul(half_x, estimate), estimate);
     on.mul_add(estimate, half_defect, estimate)
 }
 
 /// 1 / sqrt(x) from an estimate good to 2^-14: one step to 2^-27, one below rounding.
 #[inline(always)]
-fn refined_reciprocal<S: Simd, R: Roots<S>>(
-    on: Lanes<S, R>,
-    x: S::f64s,
-    estimate: S::f64s,
-) -> S::f64s {
+fn refined_reciprocal<S: Simd, R: Roots<S>>(on: Lanes<S, R>, x: S::f64s, estimate: S::f64s) -> S::f64s {
     let half_x = on.mul(on.splat(0.5), x);
     newton_step(on, half_x, newton_step(on, half_x, estimate))
 }
 
 /// sqrt(x) from the same estimate: one step for the reciprocal, one for x times it.
 #[inline(always)]
-fn refined_root<S: Simd, R: Roots<S>>(
-    on: Lanes<S, R>,
-    x: S::f64s,
-    estimate: S::f64s,
-) -> S::f64s {
+fn refined_root<S: Simd, R: Roots<S>>(on: Lanes<S, R>, x: S::f64s, estimate: S::f64s) -> S::f64s {
     let reciprocal = newton_step(on, on.mul(on.splat(0.5), x), estimate);
     let root = on.mul(x, reciprocal);
     let half_defect = on.sub_mul(on.splat(0.5), on.mul(on.splat(0.5), root), reciprocal);
@@ -99,7 +87,11 @@ mod tests {
                 let exact = f64::sqrt(x);
                 let estimate = (1.0 + error * f64::powi(2.0, -14)) / exact;
                 let reciprocal = refined_reciprocal(on, x, estimate);
-                assert!((reciprocal * exact - 1.0).abs() <= 6e-16, "{x} {error}: {:e}", reciprocal * exact - 1.0);
+                assert!(
+                    (reciprocal * exact - 1.0).abs() <= 6e-16,
+                    "{x} {error}: {:e}",
+                    reciprocal * exact - 1.0
+                );
                 let root = refined_root(on, x, estimate);
                 assert!((root / exact - 1.0).abs() <= 4.5e-16, "{x} {error}: {:e}", root / exact - 1.0);
             }

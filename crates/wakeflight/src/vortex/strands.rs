@@ -48,7 +48,14 @@ impl Strands {
     }
 
     /// Appends a segment; it continues the last strand where it starts at that strand's end.
-    pub fn push(&mut self, start: [f64; 3], end: [f64; 3], circulation: f64, core_radius: f64, coreless: bool) {
+    pub fn push(
+        &mut self,
+        start: [f64; 3],
+        end: [f64; 3],
+        circulation: f64,
+        core_radius: f64,
+        coreless: bool,
+    ) {
         match (self.strands.last_mut(), self.pieces.last()) {
             (Some(strand), Some(last)) if last.end == start => strand.n_pieces += 1,
             _ => self.strands.push(Strand { start, n_pieces: 1 }),

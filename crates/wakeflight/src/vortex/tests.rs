@@ -2,8 +2,8 @@
 use super::core::{Core, CoreDistance, segment_velocity};
 use super::curvature::curvature_velocity;
 use super::induced_velocity::{
-    Filaments, InstructionSet, Segments, add_filaments_velocity, add_filaments_velocity_on, add_induced_velocity,
-    add_segments_velocity,
+    Filaments, InstructionSet, Segments, add_filaments_velocity, add_filaments_velocity_on,
+    add_induced_velocity, add_segments_velocity,
 };
 use super::threads::{set_threads, threads};
 use std::f64::consts::PI;
@@ -48,10 +48,26 @@ fn sample(numbers: &mut Numbers) -> ([f64; 3], [f64; 3], [f64; 3], f64, f64) {
 #[test]
 fn a_long_segment_induces_the_velocity_of_a_line_vortex() {
     for h in [0.01, 0.1, 1.0] {
-        let v = segment_velocity([h, 0.0, 0.0], [0.0, 0.0, -100.0], [0.0, 0.0, 100.0], 3.0, 0.0, Core::Singular, CoreDistance::Line);
+        let v = segment_velocity(
+            [h, 0.0, 0.0],
+            [0.0, 0.0, -100.0],
+            [0.0, 0.0, 100.0],
+            3.0,
+            0.0,
+            Core::Singular,
+            CoreDistance::Line,
+        );
         close(v, [0.0, 3.0 / (2.0 * PI * h), 0.0], 5e-5);
         // in the plane of its end a half-line gives half
-        let v = segment_velocity([h, 0.0, 0.0], [0.0; 3], [0.0, 0.0, 1e6], 3.0, 0.0, Core::Singular, CoreDistance::Line);
+        let v = segment_velocity(
+            [h, 0.0, 0.0],
+            [0.0; 3],
+            [0.0, 0.0, 1e6],
+            3.0,
+            0.0,
+            Core::Singular,
+            CoreDistance::Line,
+        );
         close(v, [0.0, 3.0 / (4.0 * PI * h), 0.0], 1e-6);
     }
 }
@@ -98,7 +114,8 @@ fn two_halves_induce_what_the_whole_does() {
         let middle = sum(start, end).map(|x| 0.5 * x);
         // a core at the distance to the line sees one line; the softened kernel is integrated exactly
         for core in CORES {
-            let part = |a, b| segment_velocity(point, a, b, circulation, core_radius, core, CoreDistance::Line);
+            let part =
+                |a, b| segment_velocity(point, a, b, circulation, core_radius, core, CoreDistance::Line);
             close(sum(part(start, middle), part(middle, end)), part(start, end), 1e-11);
         }
     }
@@ -118,7 +135,15 @@ fn moving_turning_and_scaling_everything_moves_the_velocity_along() {
                 let v = segment_velocity(point, start, end, circulation, core_radius, core, distance);
                 for scale in [1e-3, 1.0, 1e4] {
                     let moved = |p| sum(turned(p), shift).map(|x| scale * x);
-                    let w = segment_velocity(moved(point), moved(start), moved(end), circulation, scale * core_radius, core, distance);
+                    let w = segment_velocity(
+                        moved(point),
+                        moved(start),
+                        moved(end),
+                        circulation,
+                        scale * core_radius,
+                        core,
+                        distance,
+                    );
                     close(w.map(|x| scale * x), turned(v), 1e-9);
                 }
             }
@@ -142,7 +167,10 @@ fn velocity_is_finite_on_the_segment_its_ends_and_its_prolongation() {
                     for set in SETS {
                         let mut w = [[0.0; 3]];
                         add_filaments_velocity_on(set, &[point], &filament, core, distance, &mut w);
-                        assert!(w[0].iter().all(|x| x.is_finite()), "{set:?} {core:?} {distance:?} {fraction}: {w:?}");
+                        assert!(
+                            w[0].iter().all(|x| x.is_finite()),
+                            "{set:?} {core:?} {distance:?} {fraction}: {w:?}"
+                        );
                         if fraction == 0.0 || (fraction - 1.0f64).abs() < 1e-12 {
                             assert_eq!((v, w[0]), ([0.0; 3], [0.0; 3]));
                         }
@@ -175,7 +203,12 @@ fn vector_sums_equal_the_reference_law() {
         let near: Vec<_> = (0..7).map(|_| numbers.point(2.0)).collect();
         let far: Vec<_> = (0..4).map(|_| numbers.point(300.0)).collect();
         let points = [near, far].concat();
-        let segment = Segments { start: vec![start], end: vec![end], circulation: vec![circulation], core_radius: vec![core_radius] };
+        let segment = Segments {
+            start: vec![start],
+            end: vec![end],
+            circulation: vec![circulation],
+            core_radius: vec![core_radius],
+        };
         let mut filament = Filaments::default();
         filament.push(&[start, end], &[circulation], &[core_radius]);
         for core in CORES {
@@ -184,7 +217,11 @@ fn vector_sums_equal_the_reference_law() {
                     let mut v = vec![[0.0; 3]; points.len()];
                     add_filaments_velocity_on(set, &points, &filament, core, distance, &mut v);
                     for (v, point) in v.iter().zip(&points) {
-                        close(*v, segment_velocity(*point, start, end, circulation, core_radius, core, distance), 1e-13);
+                        close(
+                            *v,
+                            segment_velocity(*point, start, end, circulation, core_radius, core, distance),
+                            1e-13,
+                        );
                     }
                 }
                 let (mut v, mut w) = (vec![[1.0; 3]; points.len()], vec![[1.0; 3]; points.len()]);
@@ -253,7 +290,8 @@ fn separate_segments_and_filaments_give_the_same_sum() {
 }
 
 fn ring(n: usize, core_radius: f64) -> Filaments {
-    let mut nodes: Vec<_> = (0..n).map(|k| (2.0 * PI * k as f64 / n as f64).sin_cos()).map(|(s, c)| [c, s, 0.0]).collect();
+    let mut nodes: Vec<_> =
+        (0..n).map(|k| (2.0 * PI * k as f64 / n as f64).sin_cos()).map(|(s, c)| [c, s, 0.0]).collect();
     nodes.push(nodes[0]);
     let mut filaments = Filaments::default();
     filaments.push(&nodes, &vec![1.0; n], &vec![core_radius; n]);
@@ -276,10 +314,18 @@ fn a_polygon_induces_at_its_centre_what_the_ring_does_to_second_order() {
 fn a_node_of_a_polygon_moves_as_the_thin_ring_with_the_curvature_correction() {
     let bare = |n, core_radius, core| {
         let mut v = [[0.0; 3]];
-        add_filaments_velocity(&[[1.0, 0.0, 0.0]], &ring(n, core_radius), core, CoreDistance::Segment, &mut v);
+        add_filaments_velocity(
+            &[[1.0, 0.0, 0.0]],
+            &ring(n, core_radius),
+            core,
+            CoreDistance::Segment,
+            &mut v,
+        );
         4.0 * PI * v[0][2]
     };
-    for (n, expected) in [(18, 2.519_433_034_823), (36, 3.210_448_625_953), (72, 3.902_733_153_988), (144, 4.595_582_262_039)] {
+    for (n, expected) in
+        [(18, 2.519_433_034_823), (36, 3.210_448_625_953), (72, 3.902_733_153_988), (144, 4.595_582_262_039)]
+    {
         assert!((bare(n, 0.0, Core::Singular) - expected).abs() < 1e-9);
     }
     for core_radius in [0.005f64, 0.01, 0.02, 0.05] {

@@ -74,7 +74,9 @@ pub(super) fn pool() -> Option<Arc<ThreadPool>> {
     {
         return Some(Arc::clone(&owned.pool));
     }
-    let pool = Arc::new(ThreadPoolBuilder::new().num_threads(n).thread_name(|i| format!("wakeflight-{i}")).build().ok()?);
+    let pool = Arc::new(
+        ThreadPoolBuilder::new().num_threads(n).thread_name(|i| format!("wakeflight-{i}")).build().ok()?,
+    );
     let previous = held.replace(Owned { process, pool: Arc::clone(&pool) });
     if let Some(owned) = previous.filter(|owned| owned.process != process) {
         // the threads of a parent process do not exist here: nothing to wait for

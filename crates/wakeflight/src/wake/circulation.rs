@@ -84,7 +84,11 @@ pub fn solve_circulation(
     let mut best = (here.gamma.clone(), here.inflow.clone(), here.residual);
     let mut iterations = 0;
     let mut failures = 0;
-    while best.2 > tolerance && here.residual.is_finite() && iterations < MAX_ITERATIONS && failures < MAX_FAILURES {
+    while best.2 > tolerance
+        && here.residual.is_finite()
+        && iterations < MAX_ITERATIONS
+        && failures < MAX_FAILURES
+    {
         iterations += 1;
         let mut jacobian = DMatrix::identity(n, n);
         for i in 0..n {
@@ -179,7 +183,9 @@ mod tests {
                 derivative[i] = -k * (lift(alpha + 1e-6) - lift(alpha - 1e-6)) / 2e-6;
             }
         };
-        let solution = solve_circulation(&vec![0.04; n], &matrix, section, &vec![0.0; n], &vec![-3.0 * k; n], 1e-9).unwrap();
+        let solution =
+            solve_circulation(&vec![0.04; n], &matrix, section, &vec![0.0; n], &vec![-3.0 * k; n], 1e-9)
+                .unwrap();
         assert!(solution.converged, "{} after {}", solution.residual, solution.iterations);
     }
 
@@ -188,9 +194,13 @@ mod tests {
         let (options, matrix) = rotor();
         let n = options.n_stations;
         let section = |_: &[f64], gamma: &mut [f64], _: &mut [f64]| gamma.fill(f64::NAN);
-        let solution = solve_circulation(&vec![0.0; n], &matrix, section, &vec![1.0; n], &vec![-1.0; n], 1e-9).unwrap();
+        let solution =
+            solve_circulation(&vec![0.0; n], &matrix, section, &vec![1.0; n], &vec![-1.0; n], 1e-9).unwrap();
         assert!(!solution.converged && solution.residual.is_infinite());
         assert!(solution.gamma.iter().chain(&solution.inflow).all(|v| v.is_finite()));
-        assert!(solve_circulation(&vec![f64::NAN; n], &matrix, section, &vec![1.0; n], &vec![-1.0; n], 1e-9).is_err());
+        assert!(
+            solve_circulation(&vec![f64::NAN; n], &matrix, section, &vec![1.0; n], &vec![-1.0; n], 1e-9)
+                .is_err()
+        );
     }
 }

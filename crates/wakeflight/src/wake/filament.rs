@@ -60,7 +60,12 @@ pub fn aged_core_squared(options: &WakeOptions, k: usize) -> f64 {
 ///
 /// r_c^2 <- (r_c^2 + G R^2 delta_psi) l_old / l_new; the ratio of lengths is limited to 0.5 ... 2 in a step,
 /// the radius to 0.1 r_c0 ... 0.5 R.
-pub fn stretched_core_squared(options: &WakeOptions, core_squared: f64, length_old: f64, length_new: f64) -> f64 {
+pub fn stretched_core_squared(
+    options: &WakeOptions,
+    core_squared: f64,
+    length_old: f64,
+    length_new: f64,
+) -> f64 {
     let r2 = options.radius * options.radius;
     let grown = core_squared + options.core_growth * r2 * options.delta_psi();
     let ratio = if length_new > 0.0 { (length_old / length_new).clamp(0.5, 2.0) } else { 2.0 };

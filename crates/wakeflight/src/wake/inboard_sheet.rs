@@ -34,7 +34,12 @@ fn interpolated(grid: &BladeGrid, circulation: &[f64], r: f64) -> f64 {
 ///
 /// Each carries minus the increase of the circulation over its span; the circulation is 0 at the root and that of the
 /// tip vortex at 0.8 R, so that the total is -`tip_circulation`.
-pub fn strengths(options: &WakeOptions, grid: &BladeGrid, circulation: &[f64], tip_circulation: f64) -> Vec<f64> {
+pub fn strengths(
+    options: &WakeOptions,
+    grid: &BladeGrid,
+    circulation: &[f64],
+    tip_circulation: f64,
+) -> Vec<f64> {
     let edges = span_edges(options);
     let n = options.n_sheet;
     let at = |i: usize| match i {

@@ -19,7 +19,9 @@ pub mod velocity_field;
 pub use circulation::{CirculationSolution, solve_circulation};
 pub use error::WakeError;
 pub use near_wake::near_wake_matrix;
-pub use options::{BladeState, CoreDistance, Form, HubMotion, InboardWake, Predictor, Scheme, TipStrength, WakeOptions};
+pub use options::{
+    BladeState, CoreDistance, Form, HubMotion, InboardWake, Predictor, Scheme, TipStrength, WakeOptions,
+};
 pub use relaxation::{Norms, RelaxationWake};
 pub use time_marching::{StepReport, TimeMarchingWake};
 pub use velocity_field::{InducedVelocity, Prescribed, VortexSegments};

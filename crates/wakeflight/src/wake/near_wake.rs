@@ -88,7 +88,10 @@ mod tests {
 
     #[test]
     fn azimuth_alone_does_not_change_the_near_wake() {
-        let at = |psi| near_wake_matrix(&options(), &HubMotion::default(), &BladeState { psi, flap: 0.05, lead: 0.01 }).unwrap();
+        let at = |psi| {
+            near_wake_matrix(&options(), &HubMotion::default(), &BladeState { psi, flap: 0.05, lead: 0.01 })
+                .unwrap()
+        };
         let (a, b) = (at(0.3), at(2.1));
         let largest = a.iter().fold(0.0f64, |m, v| m.max(v.abs()));
         for (x, y) in a.iter().zip(&b) {

@@ -242,7 +242,14 @@ fn whole(value: f64) -> Option<usize> {
 
 impl WakeOptions {
     /// Options of a rotor with every numerical parameter at its default; lengths in m, `omega` in rad/s.
-    pub fn new(n_blades: usize, radius: f64, root_cutout: f64, hinge_offset: f64, chord: f64, omega: f64) -> Self {
+    pub fn new(
+        n_blades: usize,
+        radius: f64,
+        root_cutout: f64,
+        hinge_offset: f64,
+        chord: f64,
+        omega: f64,
+    ) -> Self {
         WakeOptions {
             n_blades,
             radius,
@@ -307,11 +314,20 @@ impl WakeOptions {
 
     /// Checks every value.
     pub fn validate(&self) -> Result<(), WakeError> {
-        fn demand(ok: bool, field: &'static str, value: impl ToString, allowed: &str) -> Result<(), WakeError> {
+        fn demand(
+            ok: bool,
+            field: &'static str,
+            value: impl ToString,
+            allowed: &str,
+        ) -> Result<(), WakeError> {
             if ok {
                 Ok(())
             } else {
-                Err(WakeError::InvalidOption { field, value: value.to_string(), allowed: allowed.to_string() })
+                Err(WakeError::InvalidOption {
+                    field,
+                    value: value.to_string(),
+                    allowed: allowed.to_string(),
+                })
             }
         }
         let positive = |v: f64| v.is_finite() && v > 0.0;
@@ -361,7 +377,8 @@ impl WakeOptions {
         )?;
         demand(self.n_sheet >= 1, "n_sheet", self.n_sheet, "at least 1")?;
         demand(
-            self.inboard_wake == InboardWake::None || self.root_cutout < super::inboard_sheet::OUTER_END * self.radius,
+            self.inboard_wake == InboardWake::None
+                || self.root_cutout < super::inboard_sheet::OUTER_END * self.radius,
             "root_cutout",
             self.root_cutout,
             "inside 0.8 of the radius with an inboard sheet",
@@ -461,8 +478,7 @@ impl BladeState {
 mod tests {
     use super::*;
 
-    const ROTOR: &str =
-        r#""n_blades": 4, "radius": 8.0, "root_cutout": 1.0, "hinge_offset": 0.4, "chord": 0.5, "omega": 27.0"#;
+    const ROTOR: &str = r#""n_blades": 4, "radius": 8.0, "root_cutout": 1.0, "hinge_offset": 0.4, "chord": 0.5, "omega": 27.0"#;
 
     #[test]
     fn numerical_parameters_have_defaults_and_rotor_data_have_none() {
@@ -484,7 +500,10 @@ mod tests {
             options.validate().unwrap_err().to_string()
         };
         let message = refused(&|o| o.steps_per_revolution = 30);
-        assert!(message.contains("steps_per_revolution = 30") && message.contains("n_blades = 4"), "{message}");
+        assert!(
+            message.contains("steps_per_revolution = 30") && message.contains("n_blades = 4"),
+            "{message}"
+        );
         assert!(refused(&|o| o.turns = 2.01).contains("turns = 2.01"));
         assert!(refused(&|o| o.near_wake_angle = 0.5).contains("near_wake_angle = 0.5"));
         assert!(refused(&|o| o.radius = f64::NAN).contains("radius = NaN"));

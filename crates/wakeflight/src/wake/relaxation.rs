@@ -3,8 +3,8 @@
 use super::error::{WakeError, finite, length};
 use super::filament::{aged_core_squared, distance, stretched_core_squared};
 use super::geometry::{BladeGrid, release_point};
-use super::initial;
 use super::inboard_sheet;
+use super::initial;
 use super::options::{BladeState, HubMotion, WakeOptions};
 use super::stencils;
 use super::tip_strength::tip_circulation;
@@ -60,7 +60,12 @@ impl RelaxationWake<VortexSegments> {
 
 impl<F: InducedVelocity> RelaxationWake<F> {
     /// Same with the induced velocity from `field`.
-    pub fn with_field(options: WakeOptions, hub: HubMotion, mean_inflow: f64, field: F) -> Result<Self, WakeError> {
+    pub fn with_field(
+        options: WakeOptions,
+        hub: HubMotion,
+        mean_inflow: f64,
+        field: F,
+    ) -> Result<Self, WakeError> {
         options.validate()?;
         hub.validate()?;
         finite("mean_inflow", &[mean_inflow])?;
@@ -264,8 +269,13 @@ impl<F: InducedVelocity> RelaxationWake<F> {
             for k in 0..=self.options.n_segments() {
                 let release = self.release[self.row(l, k)];
                 let i = self.index(l, k);
-                self.position[i] =
-                    initial::tip_vortex(&self.options, &self.hub, self.mean_inflow, release, k as f64 * delta);
+                self.position[i] = initial::tip_vortex(
+                    &self.options,
+                    &self.hub,
+                    self.mean_inflow,
+                    release,
+                    k as f64 * delta,
+                );
             }
         }
         self.core_squared = self.cores(&self.position);
@@ -319,7 +329,8 @@ impl<F: InducedVelocity> RelaxationWake<F> {
                 let age = k as f64 * options.delta_psi() / options.omega;
                 for s in 0..n_sheet {
                     let m = instant.sheet.marker(blade * n_sheet + s, k);
-                    instant.sheet.position[m] = sum(self.sheet_release[born * n_sheet + s], carry.map(|v| v * age));
+                    instant.sheet.position[m] =
+                        sum(self.sheet_release[born * n_sheet + s], carry.map(|v| v * age));
                     instant.sheet.circulation[m] = self.sheet_strength[born * n_sheet + s];
                 }
             }
@@ -334,7 +345,8 @@ impl<F: InducedVelocity> RelaxationWake<F> {
         let mut at_instant = Vec::new();
         for l in 0..self.options.steps_per_revolution / self.options.n_blades {
             let instant = self.instant_of(l, position, core_squared);
-            self.evaluations += marker_velocity(&self.field, &self.options, &instant, &self.hub, &mut at_instant);
+            self.evaluations +=
+                marker_velocity(&self.field, &self.options, &instant, &self.hub, &mut at_instant);
             for blade in 0..self.options.n_blades {
                 let to = self.index(self.blade_row(l, blade), 0);
                 let from = instant.tip.marker(blade, 0);

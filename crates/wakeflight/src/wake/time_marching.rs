@@ -97,7 +97,12 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
     }
 
     /// Replaces the scheme of the options that the wake was started with.
-    pub fn set_scheme(&mut self, scheme: Scheme, predictor: Predictor, time_filter: f64) -> Result<(), WakeError> {
+    pub fn set_scheme(
+        &mut self,
+        scheme: Scheme,
+        predictor: Predictor,
+        time_filter: f64,
+    ) -> Result<(), WakeError> {
         let options = WakeOptions { scheme, predictor, time_filter, ..self.options.clone() };
         options.validate()?;
         self.options = options;
@@ -147,7 +152,8 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
             let m = next.tip.marker(blade, 0);
             for i in m + 1..m + n_k {
                 for c in 0..3 {
-                    curvature += (corrected[i + 1][c] - 2.0 * self.levels[0][i][c] + self.levels[1][i - 1][c]).powi(2);
+                    curvature +=
+                        (corrected[i + 1][c] - 2.0 * self.levels[0][i][c] + self.levels[1][i - 1][c]).powi(2);
                 }
             }
         }
@@ -248,7 +254,12 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
         point_velocity(&self.field, &self.options, &self.instant, points)
     }
 
-    fn check_input(&self, hub: &HubMotion, blades: &[BladeState], circulation: &[f64]) -> Result<(), WakeError> {
+    fn check_input(
+        &self,
+        hub: &HubMotion,
+        blades: &[BladeState],
+        circulation: &[f64],
+    ) -> Result<(), WakeError> {
         hub.validate()?;
         length("blades", blades.len(), self.options.n_blades)?;
         length("circulation", circulation.len(), self.instant.circulation.len())?;
@@ -372,8 +383,8 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
         for filament in 0..self.options.n_blades {
             let m = next.tip.marker(filament, 0);
             for k in 1..=self.options.n_segments() {
-                let displacement =
-                    distance(next.tip.position[m + k], self.instant.tip.position[m + k - 1]) / self.options.radius;
+                let displacement = distance(next.tip.position[m + k], self.instant.tip.position[m + k - 1])
+                    / self.options.radius;
                 if displacement.is_nan() || displacement > LARGEST_DISPLACEMENT {
                     return Err(WakeError::Diverged {
                         filament,

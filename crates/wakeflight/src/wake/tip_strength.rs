@@ -41,7 +41,8 @@ pub fn tip_circulation(options: &WakeOptions, grid: &BladeGrid, circulation: &[f
         }
         TipStrength::Max => {
             let sign = outboard_integral(grid, circulation, SIGN_RANGE * options.radius).0;
-            let outboard = grid.stations.iter().zip(circulation).filter(|(r, _)| **r >= inner).map(|(_, g)| *g);
+            let outboard =
+                grid.stations.iter().zip(circulation).filter(|(r, _)| **r >= inner).map(|(_, g)| *g);
             if sign >= 0.0 { outboard.fold(0.0, f64::max) } else { outboard.fold(0.0, f64::min) }
         }
     }

@@ -154,7 +154,13 @@ impl RotorInstant {
         for blade in (0..options.n_blades).filter(|b| own_blade != Some(*b)) {
             for j in 0..n {
                 let edge = blade * (n + 1) + j;
-                push(&mut segments, self.edge[edge], self.edge[edge + 1], self.circulation[blade * n + j], bound_core);
+                push(
+                    &mut segments,
+                    self.edge[edge],
+                    self.edge[edge + 1],
+                    self.circulation[blade * n + j],
+                    bound_core,
+                );
             }
         }
         segments
@@ -162,7 +168,13 @@ impl RotorInstant {
 }
 
 /// Appends one segment.
-pub(crate) fn push(segments: &mut Segments, start: [f64; 3], end: [f64; 3], circulation: f64, core_radius: f64) {
+pub(crate) fn push(
+    segments: &mut Segments,
+    start: [f64; 3],
+    end: [f64; 3],
+    circulation: f64,
+    core_radius: f64,
+) {
     segments.start.push(start);
     segments.end.push(end);
     segments.circulation.push(circulation);
@@ -226,7 +238,9 @@ pub fn marker_velocity<F: InducedVelocity>(
     for i in 0..tip.n_filaments {
         for k in 1..tip.n_segments {
             let m = tip.marker(i, k);
-            let core = (0.5 * (tip.core_squared[i * tip.n_segments + k - 1] + tip.core_squared[i * tip.n_segments + k])).sqrt();
+            let core = (0.5
+                * (tip.core_squared[i * tip.n_segments + k - 1] + tip.core_squared[i * tip.n_segments + k]))
+                .sqrt();
             let local = field.self_induced(
                 tip.position[m - 1],
                 tip.position[m],
@@ -242,7 +256,11 @@ pub fn marker_velocity<F: InducedVelocity>(
 
 /// Induced inflow at the blade stations without that of the own near wake, -v_z/(omega R) (n_blades, n_stations); also
 /// the number of segment evaluations.
-pub fn station_inflow<F: InducedVelocity>(field: &F, options: &WakeOptions, instant: &RotorInstant) -> (Vec<f64>, u64) {
+pub fn station_inflow<F: InducedVelocity>(
+    field: &F,
+    options: &WakeOptions,
+    instant: &RotorInstant,
+) -> (Vec<f64>, u64) {
     let n = options.n_stations;
     let mut inflow = Vec::with_capacity(options.n_blades * n);
     let mut evaluations = 0;

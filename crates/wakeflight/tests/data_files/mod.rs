@@ -112,7 +112,12 @@ pub fn interference() -> Interference {
         ekz_tail: grid("ekz_tail"),
         downwash: fuselage.table("angle_deg", deg, "eps_deg_of_alpha", deg),
         sidewash: fuselage.table("angle_deg", deg, "sigma_deg_of_psi", deg),
-        q_ratio_stabilator: Csv::read("interference_tail_qloss_stabilator.csv").table("alpha_deg", deg, "q_ratio", 1.0),
+        q_ratio_stabilator: Csv::read("interference_tail_qloss_stabilator.csv").table(
+            "alpha_deg",
+            deg,
+            "q_ratio",
+            1.0,
+        ),
         q_ratio_fin: Csv::read("interference_tail_qloss_fin.csv").table("psi_deg", deg, "q_ratio", 1.0),
     }
 }
@@ -197,7 +202,11 @@ pub fn assert_derivatives<const N: usize, const M: usize>(
             // division of duals goes by the reciprocal: equal to rounding only
             assert!((dual[k].re - value[k]).abs() < 1e-12 * scale, "value {k}");
             let error = (dual[k].eps[i] - difference).abs();
-            assert!(error < 1e-7 * scale + 1e-6 * difference.abs(), "d{k}/d{i}: {} {difference}", dual[k].eps[i]);
+            assert!(
+                error < 1e-7 * scale + 1e-6 * difference.abs(),
+                "d{k}/d{i}: {} {difference}",
+                dual[k].eps[i]
+            );
         }
     }
 }

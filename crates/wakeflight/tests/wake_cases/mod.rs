@@ -9,7 +9,11 @@ pub const OMEGA: f64 = 27.0;
 pub const CUTOUT: f64 = 0.2;
 
 pub fn options() -> WakeOptions {
-    WakeOptions { n_stations: 12, near_wake_angle: 0.0, ..WakeOptions::new(4, RADIUS, CUTOUT * RADIUS, 0.0, 0.065 * RADIUS, OMEGA) }
+    WakeOptions {
+        n_stations: 12,
+        near_wake_angle: 0.0,
+        ..WakeOptions::new(4, RADIUS, CUTOUT * RADIUS, 0.0, 0.065 * RADIUS, OMEGA)
+    }
 }
 
 /// Hover: five turns and a far wake.
@@ -52,7 +56,8 @@ pub fn settle(wake: &mut RelaxationWake, tolerance: f64, most: usize) -> usize {
 pub fn blades(options: &WakeOptions, step: usize) -> Vec<BladeState> {
     (0..options.n_blades)
         .map(|b| BladeState {
-            psi: TAU * (step as f64 / options.steps_per_revolution as f64 + b as f64 / options.n_blades as f64),
+            psi: TAU
+                * (step as f64 / options.steps_per_revolution as f64 + b as f64 / options.n_blades as f64),
             ..Default::default()
         })
         .collect()
