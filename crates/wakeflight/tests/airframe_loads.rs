@@ -26,7 +26,7 @@ fn at_zero_angles_fuselage_loads_are_the_table_entries() {
     for (value, reference) in [
         (l.force.x / q, -23.58 * FT2),
         (l.force.y / q, 0.0),
-        (l.force.z / q, -1.0 * FT2),
+        (l.force.z / q, -FT2),
         (l.moment.x / q, 0.0),
         (l.moment.y / q, -90.0 * FT3),
         (l.moment.z / q, 0.0),
