@@ -31,7 +31,9 @@ app = typer.Typer(
     help="Helicopters in unsteady manoeuvres with a time-accurate free vortex wake.",
 )
 
-ManeuverName = Annotated[str, typer.Argument(metavar="MANEUVER", help="arrested-descent, roll-reversal, or a TOML file")]
+ManeuverName = Annotated[
+    str, typer.Argument(metavar="MANEUVER", help="arrested-descent, roll-reversal, or a TOML file")
+]
 AircraftName = Annotated[str, typer.Option("--aircraft", metavar="NAME|FILE", help="uh60a, or an aircraft file")]
 LoadingName = Annotated[str | None, typer.Option("--loading", help="named mass and c.g. of the aircraft file")]
 ConditionName = Annotated[str | None, typer.Option("--condition", help="named condition of the aircraft file")]
@@ -347,17 +349,13 @@ def _folder(folder: Path) -> Path:
     return folder
 
 
-def _fly_once(
-    request: _Request, revolutions: float | None, integrator: str, out: Path, progress: Progress
-) -> Any:
+def _fly_once(request: _Request, revolutions: float | None, integrator: str, out: Path, progress: Progress) -> Any:
     """Trim and fly one request, save whatever was computed, raise where the flight did not finish."""
     from .flight import fly as solve
     from .inflow import trim_model
     from .trim import trim as trim_solve
 
-    start = trim_solve(
-        request.aircraft, request.condition, inflow=trim_model(request.inflow), progress=progress
-    )
+    start = trim_solve(request.aircraft, request.condition, inflow=trim_model(request.inflow), progress=progress)
     try:
         flight = solve(
             start,

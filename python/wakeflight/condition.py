@@ -73,9 +73,7 @@ class FlightCondition:
             object.__setattr__(self, name, 0.0 if name == "turn_rate" and number is None else number)
         mass = None if weight is None else mass_of_weight(weight)
         if mass is not None and not _MASS[0] <= mass <= _MASS[1]:
-            allowed = (
-                f"must lie between {shown(_MASS[0], 'kg')} and {shown(_MASS[1], 'kg')} (times 9.80665 m/s2)"
-            )
+            allowed = f"must lie between {shown(_MASS[0], 'kg')} and {shown(_MASS[1], 'kg')} (times 9.80665 m/s2)"
             raise InputError.of("weight", weight, allowed)
         object.__setattr__(self, "gross_mass", mass)
         object.__setattr__(self, "heading", _heading(heading, self.sideslip, self.bank))
@@ -97,9 +95,7 @@ class FlightCondition:
             if values[name] is None:
                 values[name] = aircraft.default(name, named)
         if values["heading"] is None:
-            fast_and_straight = (
-                values["speed"] >= HEADING_FREE_SPEED * (1.0 - 1e-9) and values["turn_rate"] == 0.0
-            )
+            fast_and_straight = values["speed"] >= HEADING_FREE_SPEED * (1.0 - 1e-9) and values["turn_rate"] == 0.0
             values["heading"] = "free" if fast_and_straight else "aligned"
         if values["heading"] == "free":
             values["bank"] = 0.0 if values["bank"] is None else values["bank"]
@@ -140,13 +136,9 @@ def _in_range(name: str, value: Any) -> float:
 def _heading(heading: str | None, sideslip: float | None, bank: float | None) -> str | None:
     """Convention of trim from what is given; sideslip and bank together would ask for too much."""
     if heading not in (None, "free", "aligned"):
-        raise InputError.of(
-            "heading", heading, "allowed: free (bank given or zero), aligned (sideslip given or zero)"
-        )
+        raise InputError.of("heading", heading, "allowed: free (bank given or zero), aligned (sideslip given or zero)")
     if sideslip is not None and (bank is not None or heading == "free"):
-        raise InputError.of(
-            "sideslip", shown(sideslip, "deg"), "trim finds it where bank is given or heading is free"
-        )
+        raise InputError.of("sideslip", shown(sideslip, "deg"), "trim finds it where bank is given or heading is free")
     if bank is not None and heading == "aligned":
         raise InputError.of("bank", shown(bank, "deg"), "trim finds it where heading is aligned")
     if sideslip is not None:

@@ -62,7 +62,15 @@ class MarchingExchange:
         self, y: np.ndarray, stick: np.ndarray, stick_rate: np.ndarray, q: np.ndarray, q_dot: np.ndarray
     ) -> None:
         self.circulation, self.inflow, _, failed = self.model.core.solve_circulation(
-            self.model.wake_options, y, stick, stick_rate, self.psi, q, q_dot, self.lambda_far, self.circulation
+            self.model.wake_options,
+            y,
+            stick,
+            stick_rate,
+            self.psi,
+            q,
+            q_dot,
+            self.lambda_far,
+            self.circulation,
         )
         self.circulation_not_converged += failed
 

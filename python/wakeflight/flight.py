@@ -56,7 +56,12 @@ class Flight:
         """BibTeX of everything the run used."""
         from .references import bibtex
 
-        keys = {*self.start.aircraft.references, *self.start.inflow.references, *self.maneuver.references, "ribera2004"}
+        keys = {
+            *self.start.aircraft.references,
+            *self.start.inflow.references,
+            *self.maneuver.references,
+            "ribera2004",
+        }
         return bibtex(sorted(keys))
 
 
@@ -244,7 +249,11 @@ def flight_model(start: Trim, inflow: str | InflowModel | None) -> Model:
     before, now = trim_model(trimmed).core_options(start.aircraft), chosen.core_options(start.aircraft)
     for name in sorted(set(now) - {"scheme", "predictor", "time_filter", "relaxation"}):
         if before[name] != now[name]:
-            raise InputError.of(name, now[name], f"must be that of the trim, {before[name]}: trim again with this inflow model")
+            raise InputError.of(
+                name,
+                now[name],
+                f"must be that of the trim, {before[name]}: trim again with this inflow model",
+            )
     return Model.build(start.aircraft, start.condition, chosen)
 
 

@@ -71,9 +71,7 @@ class IdaIntegrator:
         self._statistics["residual_evaluations"] += 1
         self.model.core.residual(t, y, y_dot, self._inputs, f)
 
-    def _jacobian(
-        self, t: float, y: np.ndarray, y_dot: np.ndarray, f: np.ndarray, c_j: float, out: np.ndarray
-    ) -> None:
+    def _jacobian(self, t: float, y: np.ndarray, y_dot: np.ndarray, f: np.ndarray, c_j: float, out: np.ndarray) -> None:
         self._statistics["jacobians"] += 1
         self.model.core.jacobian(t, y, y_dot, self._inputs, 1.0, c_j, out)
 

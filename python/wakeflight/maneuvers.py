@@ -105,7 +105,10 @@ class Maneuver:
         travel_in: travel of the four sticks of the other aircraft (4,) [in].
         """
         scaled = tuple(
-            (stick, tuple((time, inches * travel_in[STICKS.index(stick)] / self.travel_in) for time, inches in corners))
+            (
+                stick,
+                tuple((time, inches * travel_in[STICKS.index(stick)] / self.travel_in) for time, inches in corners),
+            )
             for stick, corners in self.corners_of
         )
         return replace(self, corners_of=scaled)
@@ -139,14 +142,18 @@ class Maneuver:
             trim, travel, limit = float(trim_in[index]), float(travel_in[index]), float(limits[index])
             beyond, time, inches = max((max(-(trim + x), trim + x - travel), t, x) for t, x in corners)
             if beyond > 1e-9:
-                reached = f"{trim + inches:.3f} in at {time:.4g} s, {beyond:.3f} in beyond its travel of {travel:.4g} in"
+                reached = (
+                    f"{trim + inches:.3f} in at {time:.4g} s, {beyond:.3f} in beyond its travel of {travel:.4g} in"
+                )
                 if not shipped:
                     allowed = f"from a trim of {trim:.3f} in reaches {reached}; must stay between 0 and {travel:.4g} in"
                     raise InputError.of(f"{self.name}: {stick}", f"{inches:g} in", allowed)
                 warnings.append(f"{self.name}: {stick} stick reaches {reached}; flown as published")
             fastest = max((abs(slope) for slope in _slopes(corners)), default=0.0)
             if fastest > limit * (1.0 + 1e-9):
-                warnings.append(f"{self.name}: {stick} moves at {fastest:.1f} in/s, beyond {limit:.4g} in/s; flown as given")
+                warnings.append(
+                    f"{self.name}: {stick} moves at {fastest:.1f} in/s, beyond {limit:.4g} in/s; flown as given"
+                )
         return warnings
 
 
@@ -242,9 +249,7 @@ def _read(path: Path, shipped: bool) -> Maneuver:
             raise InputError.of(key, "unknown key", f"allowed: {', '.join(group.model_fields)}", file=path) from None
         value = "missing" if error["type"] == "missing" else error["input"]
         raise InputError.of(key, value, message, file=path) from None
-    corners = tuple(
-        (stick, tuple(points)) for stick in STICKS if (points := getattr(file.controls, stick)) is not None
-    )
+    corners = tuple((stick, tuple(points)) for stick in STICKS if (points := getattr(file.controls, stick)) is not None)
     try:
         return Maneuver(
             name=file.name,

@@ -36,7 +36,8 @@ class Recorder:
         self.azimuth = np.empty((n, blades))
         self.loads = {name: np.empty((n, 3)) for name in ("force", "moment", "hub_force", "hub_moment")}
         self.scalars = {
-            name: np.empty(n) for name in ("ct", "beta_1c", "beta_1s", "power", "inflow_mean", "odd_even", "max_displacement")
+            name: np.empty(n)
+            for name in ("ct", "beta_1c", "beta_1s", "power", "inflow_mean", "odd_even", "max_displacement")
         }
         self.snapshots: list[np.ndarray] = []
         self.snapshot_revolution: list[float] = []
@@ -109,8 +110,17 @@ class Recorder:
         if not isinstance(model.inflow, DynamicInflow):
             arrays |= self._wake_arrays(phase)
         counted = self._counters()
-        return assemble(arrays, {**self._describe(), **attributes, **counted, **convergence_attributes(phase),
-                                 "warnings": "; ".join(warnings), "failure": failure or ""})
+        return assemble(
+            arrays,
+            {
+                **self._describe(),
+                **attributes,
+                **counted,
+                **convergence_attributes(phase),
+                "warnings": "; ".join(warnings),
+                "failure": failure or "",
+            },
+        )
 
     def _modal(self, y: np.ndarray) -> np.ndarray:
         """Modal coordinates (time, blade, mode) as fractions of the tip deflection: angle of the tip in the mode [rad]."""

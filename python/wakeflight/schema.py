@@ -46,9 +46,7 @@ COORDINATES: dict[str, Variable] = {
         Variable("age", ("age",), "rad", "wake age: angle turned by the blade since release"),
         Variable("xyz", ("xyz",), "1", "component"),
         Variable("azimuth", ("azimuth",), "rad", "azimuth, 0 over the tail, in the direction of rotation"),
-        Variable(
-            "psi", ("psi",), "rad", "azimuth of a disk map in a run, where `azimuth` is that of the blades"
-        ),
+        Variable("psi", ("psi",), "rad", "azimuth of a disk map in a run, where `azimuth` is that of the blades"),
         Variable("harmonic", ("harmonic",), "1", "mean, then cosine and sine of each harmonic"),
     )
 }
@@ -81,9 +79,7 @@ RUN: tuple[Variable, ...] = (
         ("beta_1c", "rad", "cosine of the first flap mode, multiblade transform; > 0 is disk forward-down"),
         ("beta_1s", "rad", "sine of the first flap mode, multiblade transform; > 0 is advancing side up"),
     ),
-    Variable(
-        "hub_force", ("time", "xyz"), "N", "main rotor's force on the hub, hub axes (x aft, y right, z up)"
-    ),
+    Variable("hub_force", ("time", "xyz"), "N", "main rotor's force on the hub, hub axes (x aft, y right, z up)"),
     Variable("hub_moment", ("time", "xyz"), "N m", "main rotor's moment at the hub centre, hub axes"),
     Variable(
         "modal",
@@ -101,9 +97,7 @@ RUN: tuple[Variable, ...] = (
         ("alpha", "rad", "section angle of attack"),
         ("mach", "1", "section Mach number"),
     ),
-    Variable(
-        "wake", ("snapshot", "blade", "age", "xyz"), "m", "tip vortex position, hub axes", optional=True
-    ),
+    Variable("wake", ("snapshot", "blade", "age", "xyz"), "m", "tip vortex position, hub axes", optional=True),
     Variable("snapshot_revolution", ("snapshot",), "1", "revolutions flown at the snapshot", optional=True),
     Variable(
         "wake_circulation",
@@ -159,9 +153,7 @@ TRIM: tuple[Variable, ...] = (
         ("power", "W", "engine power: main rotor, tail rotor and accessories"),
     ),
     Variable("inflow", DISK, "1", "induced inflow v_i/(Omega R) along -z_h, positive down through the disk"),
-    Variable(
-        "modal", ("azimuth", "mode"), "1", "periodic modal coordinate, as a fraction of its tip deflection"
-    ),
+    Variable("modal", ("azimuth", "mode"), "1", "periodic modal coordinate, as a fraction of its tip deflection"),
     Variable("residual_linear", ("xyz",), "m/s2", "linear acceleration left over, body axes"),
     Variable("residual_angular", ("xyz",), "rad/s2", "angular acceleration left over, body axes"),
     Variable("residual_blade", (), "rad", "largest blade harmonic left over, equivalent tip angle"),
@@ -178,12 +170,8 @@ TRIM: tuple[Variable, ...] = (
         ("inflow_mean", "1", "disk mean of the induced inflow v_i/(Omega R), positive down"),
         optional=True,
     ),
-    *_rows(
-        ("xyz",), ("velocity_b", "m/s", "body velocity"), ("rates_b", "rad/s", "body rates"), optional=True
-    ),
-    Variable(
-        "modal_harmonics", ("mode", "harmonic"), "1", "harmonics of the modal coordinates", optional=True
-    ),
+    *_rows(("xyz",), ("velocity_b", "m/s", "body velocity"), ("rates_b", "rad/s", "body rates"), optional=True),
+    Variable("modal_harmonics", ("mode", "harmonic"), "1", "harmonics of the modal coordinates", optional=True),
     *_rows(
         DISK,
         ("circulation", "m2/s", "bound circulation, positive with upward lift"),

@@ -238,9 +238,7 @@ def trim_problem(model: Model, inflow_map: np.ndarray | None, n_harmonics: int =
     fine = n_azimuths * int(np.ceil(4 * n_harmonics / n_azimuths))
     if inflow_map is not None and fine > n_azimuths:
         inflow_map = resample(inflow_map, fine)
-    return _core.TrimProblem(
-        c.speed, c.flight_path, c.turn_rate, kind, angle, n_harmonics, fine, inflow_map, mean
-    )
+    return _core.TrimProblem(c.speed, c.flight_path, c.turn_rate, kind, angle, n_harmonics, fine, inflow_map, mean)
 
 
 def resample(inflow_map: np.ndarray, n: int) -> np.ndarray:

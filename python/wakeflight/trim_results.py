@@ -147,8 +147,11 @@ def table(start: Trim) -> str:
     lam = first_harmonics(start)
     condition = start.condition
     rows = [
-        ("condition", f"{condition.speed / 0.514444:.1f} kt, flight path {deg(condition.flight_path):.2f} deg, "
-                      f"{condition.altitude / 0.3048:.0f} ft, {condition.gross_mass / 0.45359237:.0f} lb"),
+        (
+            "condition",
+            f"{condition.speed / 0.514444:.1f} kt, flight path {deg(condition.flight_path):.2f} deg, "
+            f"{condition.altitude / 0.3048:.0f} ft, {condition.gross_mass / 0.45359237:.0f} lb",
+        ),
         ("inflow model", start.inflow.name),
         *[
             (f"{name} stick", f"{stick[name]:7.3f} in of {full:.2f}")
@@ -156,19 +159,39 @@ def table(start: Trim) -> str:
         ],
         ("roll, pitch", f"{deg(start.roll):7.3f} deg, {deg(start.pitch):.3f} deg"),
         ("heading against track", f"{deg(start.yaw):7.3f} deg (nose right +)"),
-        ("theta_0, 1c, 1s, tail", ", ".join(f"{deg(c[k]):.3f}" for k in ("theta_0", "theta_1c", "theta_1s", "theta_tr")) + " deg"),
-        ("coning, beta_1c, beta_1s", ", ".join(f"{deg(mean[k]):.3f}" for k in ("beta_0", "beta_1c", "beta_1s")) + " deg"),
+        (
+            "theta_0, 1c, 1s, tail",
+            ", ".join(f"{deg(c[k]):.3f}" for k in ("theta_0", "theta_1c", "theta_1s", "theta_tr")) + " deg",
+        ),
+        (
+            "coning, beta_1c, beta_1s",
+            ", ".join(f"{deg(mean[k]):.3f}" for k in ("beta_0", "beta_1c", "beta_1s")) + " deg",
+        ),
         ("stabilator", f"{deg(start.stabilator_incidence):7.3f} deg"),
         ("lambda_0, 1c, 1s", ", ".join(f"{v:.5f}" for v in lam)),
-        ("C_T, C_T/sigma, mu", f"{mean['ct']:.6f}, {mean['ct'] / start.aircraft.solidity:.4f}, {mean['mu']:.4f}"),
-        ("power", f"{mean['power'] / HORSEPOWER:.1f} hp (main {mean['power_main'] / HORSEPOWER:.1f}, "
-                  f"tail {mean['power_tail'] / HORSEPOWER:.1f})"),
-        ("residuals", f"linear {residuals['linear']:.1e} m/s2, angular {residuals['angular']:.1e} rad/s2, "
-                      f"blade harmonics {residuals['harmonics']:.1e} rad"),
+        (
+            "C_T, C_T/sigma, mu",
+            f"{mean['ct']:.6f}, {mean['ct'] / start.aircraft.solidity:.4f}, {mean['mu']:.4f}",
+        ),
+        (
+            "power",
+            f"{mean['power'] / HORSEPOWER:.1f} hp (main {mean['power_main'] / HORSEPOWER:.1f}, "
+            f"tail {mean['power_tail'] / HORSEPOWER:.1f})",
+        ),
+        (
+            "residuals",
+            f"linear {residuals['linear']:.1e} m/s2, angular {residuals['angular']:.1e} rad/s2, "
+            f"blade harmonics {residuals['harmonics']:.1e} rad",
+        ),
     ]
     if not isinstance(start.inflow, DynamicInflow) and start.history:
         last = start.history[-1]
-        rows.append(("wake", f"inflow changes by {last['inflow_change']:.1e} of the tip speed per iteration, first turn by "
-                             f"{last['first_turn_change']:.1e} R, pitch controls by {last['control_change']:.1e} rad"))
+        rows.append(
+            (
+                "wake",
+                f"inflow changes by {last['inflow_change']:.1e} of the tip speed per iteration, first turn by "
+                f"{last['first_turn_change']:.1e} R, pitch controls by {last['control_change']:.1e} rad",
+            )
+        )
     width = max(len(name) for name, _ in rows)
     return "\n".join(f"{name:<{width}}  {value.strip()}" for name, value in rows)

@@ -101,9 +101,7 @@ def quantity(value: Any, si_unit: str, field: str) -> float:
         try:
             number = float(value.to(si_unit.replace(" ", "*")).magnitude)
         except Exception as reason:  # pint's DimensionalityError, without importing pint for it
-            raise InputError.of(
-                field, value, f"must have a unit of {si_unit}, for example {example}"
-            ) from reason
+            raise InputError.of(field, value, f"must have a unit of {si_unit}, for example {example}") from reason
     elif isinstance(value, str):
         match = _TEXT.match(value)
         if match is None or not match.group(2):
@@ -113,9 +111,7 @@ def quantity(value: Any, si_unit: str, field: str) -> float:
         except ValueError as reason:
             raise InputError.of(field, value, f"{reason}; allowed is for example {example}") from reason
     else:
-        raise InputError.of(
-            field, value, f"must be text with a unit or a pint quantity, for example {example}"
-        )
+        raise InputError.of(field, value, f"must be text with a unit or a pint quantity, for example {example}")
     if not math.isfinite(number):
         raise InputError.of(field, value, "must be a finite number")
     return number

@@ -33,7 +33,11 @@ class WakeInTrim:
         self.relaxation: _core.RelaxationWake | None = None
         self.converged = False
         self.last: dict[str, float] = {}
-        self.counters = {"relaxation_iterations": 0, "wake_segment_evaluations": 0, "circulation_not_converged": 0}
+        self.counters = {
+            "relaxation_iterations": 0,
+            "wake_segment_evaluations": 0,
+            "circulation_not_converged": 0,
+        }
 
     def converge(self, problem: _core.TrimProblem, x: np.ndarray) -> np.ndarray:
         """Iterate wake and circulation at the trimmed motion; returns the total inflow map (n, n_stations)."""
@@ -89,7 +93,12 @@ class WakeInTrim:
         return self.converged
 
     def _solve_circulation(
-        self, y: np.ndarray, stick: np.ndarray, q: np.ndarray, q_dot: np.ndarray, near_wake_in_far: bool = False
+        self,
+        y: np.ndarray,
+        stick: np.ndarray,
+        q: np.ndarray,
+        q_dot: np.ndarray,
+        near_wake_in_far: bool = False,
     ) -> None:
         start = self.circulation
         if near_wake_in_far:

@@ -135,7 +135,11 @@ def test_a_checked_request_is_handed_on(monkeypatch, tmp_path):
     request = seen["request"]
     assert request.condition.speed == pytest.approx(60 * 1852 / 3600)
     assert request.condition.is_complete
-    assert (request.inflow.name, request.inflow.turns, request.inflow.scheme) == ("time-marching", 3.0, "pc2b")
+    assert (request.inflow.name, request.inflow.turns, request.inflow.scheme) == (
+        "time-marching",
+        3.0,
+        "pc2b",
+    )
     assert request.inflow.steps_per_revolution == 72
     assert (seen["revolutions"], seen["integrator"]) == (2.0, "ida")
     # nothing is written before there is something to write

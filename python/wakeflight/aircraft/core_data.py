@@ -7,6 +7,7 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
+from ..units import STANDARD_GRAVITY
 from . import tables
 from .mass import airframe_inertia, blade_mass
 from .schema import AircraftFile, InterferenceTables, Loading, Rotor, Stabilator
@@ -30,9 +31,7 @@ def fixed_parts(spec: AircraftFile) -> dict[str, Any]:
     }
 
 
-def assembled(
-    spec: AircraftFile, parts: dict[str, Any], loading: Loading, gross_mass: float
-) -> dict[str, Any]:
+def assembled(spec: AircraftFile, parts: dict[str, Any], loading: Loading, gross_mass: float) -> dict[str, Any]:
     """The whole aircraft at a gross mass [kg]: positions from the nominal gross centre of gravity, body axes."""
 
     def from_cg(station: Sequence[float]) -> list[float]:
@@ -51,8 +50,9 @@ def assembled(
     inertia.append(float(loading.inertia.ixz))
     if loading.inertia.of == "gross":
         blades = int(rotor.n_blades) * blade_mass(parts["blade"]["structure"])
-        # published with the loading's own weight, whatever is flown
-        mass = float(loading.weight) / 9.80665 if loading.weight is not None else gross_mass
+        # published with a weight, whatever is flown: that of the loading, else that of the file's condition
+        weight = loading.weight if loading.weight is not None else spec.condition.weight
+        mass = float(weight) / STANDARD_GRAVITY
         inertia = airframe_inertia(inertia, mass, blades, hub)
     return {
         "rotor": {
@@ -88,15 +88,11 @@ def _blade(rotor: Rotor) -> dict[str, Any]:
     stations = geometry.column("r", "m", radius)
     tables.ascending(geometry, "r", stations)
     root = float(blade.root_station)
-    tables.covering(
-        geometry, "r", stations, root, radius, f"the root at {root:.6g} m to the tip at {radius:.6g} m"
-    )
+    tables.covering(geometry, "r", stations, root, radius, f"the root at {root:.6g} m to the tip at {radius:.6g} m")
     chord = geometry.column("chord", "m")
     for station, value in zip(stations, chord, strict=True):
         if station >= float(blade.root_cutout) and not value > 0.0:
-            raise geometry.error(
-                "chord", f"{value:g} m at {station:.6g} m", "must be above 0 beyond the root cut-out"
-            )
+            raise geometry.error("chord", f"{value:g} m at {station:.6g} m", "must be above 0 beyond the root cut-out")
     return {
         "root": blade.root,
         "root_station": root,

@@ -69,15 +69,11 @@ def _one_error(path: Path, reason: ValidationError, data: dict) -> InputError:
     location = [str(part) for part in error["loc"]]
     # a union reports the tag of its member, which is not a key of the file
     location = [
-        part
-        for i, part in enumerate(location)
-        if not (location[:i] == ["interference"] and i == 1 and _tag(data))
+        part for i, part in enumerate(location) if not (location[:i] == ["interference"] and i == 1 and _tag(data))
     ]
     key = ".".join(location) or "file"
     if error["type"] == "extra_forbidden":
-        return InputError.of(
-            key, "unknown key", f"allowed here: {', '.join(_allowed(location[:-1], data))}", file=path
-        )
+        return InputError.of(key, "unknown key", f"allowed here: {', '.join(_allowed(location[:-1], data))}", file=path)
     if error["type"] == "missing":
         return InputError.of(key, "missing", "must be given", file=path)
     message = error["msg"].removeprefix("Value error, ")
@@ -102,9 +98,7 @@ def _allowed(location: list[str], data: dict) -> list[str]:
             candidates = _models(model.model_fields[part].annotation)
             if part == "interference" and depth == 0:
                 kind = data["interference"].get("kind")
-                candidates = [
-                    each for each in candidates if kind in get_args(each.model_fields["kind"].annotation)
-                ]
+                candidates = [each for each in candidates if kind in get_args(each.model_fields["kind"].annotation)]
             if not candidates:
                 return []
             model = candidates[0]

@@ -167,9 +167,7 @@ class Aircraft:
         key = "weight" if name == "gross_mass" else name
         named = self._spec.conditions[condition] if condition is not None else None
         groups = [named, self._loading if key == "weight" else None, self._spec.condition]
-        value = next(
-            getattr(group, key) for group in groups if group is not None and getattr(group, key) is not None
-        )
+        value = next(getattr(group, key) for group in groups if group is not None and getattr(group, key) is not None)
         return float(value) / STANDARD_GRAVITY if name == "gross_mass" else float(value)
 
     @property
@@ -189,9 +187,7 @@ class Aircraft:
             gross_mass = self.default("gross_mass")
         blades = int(self.rotor.n_blades) * self.blade_mass
         if gross_mass <= blades:
-            allowed = (
-                f"must be above the mass of the {int(self.rotor.n_blades)} blades, {shown(blades, 'lb')}"
-            )
+            allowed = f"must be above the mass of the {int(self.rotor.n_blades)} blades, {shown(blades, 'lb')}"
             raise InputError.of("weight", shown(gross_mass, "lb"), allowed)
         # a copy: whoever receives it may change it, the aircraft may not change
         return copy.deepcopy(assembled(self._spec, self._parts, self._loading, gross_mass))

@@ -153,9 +153,7 @@ def vector(
     units = (si_unit,) * length if isinstance(si_unit, str) else si_unit
     readers = [_reader(unit, low, high, None) for unit in units]
     shape = f"{rows} rows of {length} numbers" if rows else f"{length} numbers"
-    allowed = (
-        f"a table {{ value, unit, source, confidence }} with {shape} in {', '.join(dict.fromkeys(units))}"
-    )
+    allowed = f"a table {{ value, unit, source, confidence }} with {shape} in {', '.join(dict.fromkeys(units))}"
 
     def row(values: Any, given: list[str]) -> tuple[float, ...]:
         if not isinstance(values, list) or len(values) != length:

@@ -269,9 +269,7 @@ class AircraftFile(Group):
     stabilator: Stabilator | None = None
     fin: Fin | None = None
     fuselage: Fuselage | None = None
-    interference: Annotated[InterferenceTables | InterferenceFactors, Field(discriminator="kind")] | None = (
-        None
-    )
+    interference: Annotated[InterferenceTables | InterferenceFactors, Field(discriminator="kind")] | None = None
     drive: Drive
     discretisation: Discretisation = Discretisation()
     comparison: dict[str, Noted] = {}

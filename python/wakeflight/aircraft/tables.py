@@ -92,11 +92,7 @@ def read_csv(path: Path, provenance: Provenance) -> TableFile:
     except UnicodeDecodeError as reason:
         raise ValueError(f"names the file {path}, which is not UTF-8 text") from reason
     comment = [line[1:].strip() for line in lines if line.startswith("#")]
-    rows = [
-        [cell.strip() for cell in line.split(",")]
-        for line in lines
-        if line.strip() and not line.startswith("#")
-    ]
+    rows = [[cell.strip() for cell in line.split(",")] for line in lines if line.strip() and not line.startswith("#")]
     if len(rows) < 2:
         raise ValueError(f"names the file {path}, which has no header line with numbers below it")
     header, body = rows[0], rows[1:]
@@ -104,9 +100,7 @@ def read_csv(path: Path, provenance: Provenance) -> TableFile:
         raise ValueError(f"names the file {path}, in which a column stands twice")
     for row in body:
         if len(row) != len(header):
-            raise ValueError(
-                f"names the file {path}, whose line '{','.join(row)[:40]}' has not {len(header)} columns"
-            )
+            raise ValueError(f"names the file {path}, whose line '{','.join(row)[:40]}' has not {len(header)} columns")
     columns: dict[str, tuple[float, ...]] = {}
     for index, name in enumerate(header):
         cells = [row[index] for row in body]
@@ -115,9 +109,7 @@ def read_csv(path: Path, provenance: Provenance) -> TableFile:
             continue
         if len(numbers) != len(cells):
             wrong = next(cell for cell in cells if _number(cell) is None)
-            raise ValueError(
-                f"names the file {path}, whose column {name} holds '{wrong}', not a finite number"
-            )
+            raise ValueError(f"names the file {path}, whose column {name} holds '{wrong}', not a finite number")
         columns[name] = tuple(numbers)
     return TableFile(path, columns, "\n".join(comment), provenance)
 
@@ -183,9 +175,7 @@ def by_mach(table: TableFile) -> dict[str, list]:
     alpha = table.column("alpha", "rad")
     ascending(table, "alpha", alpha)
     covering(table, "alpha", alpha, -math.pi, math.pi, "-180 to 180 deg")
-    headers = [
-        header for header in table.columns if header.startswith("M") and _number(header[1:]) is not None
-    ]
+    headers = [header for header in table.columns if header.startswith("M") and _number(header[1:]) is not None]
     mach = [float(header[1:]) for header in headers]
     if not mach:
         raise table.error("M...", "missing", "columns by Mach number are needed, such as M0.0, M0.3")

@@ -74,8 +74,6 @@ def _document(kind: str, content: str) -> str:
 def _array(name: str, values: np.ndarray, kind: str = "Float64") -> str:
     """One DataArray in plain text; nine digits are a hundredth of a micrometre on a rotor."""
     components = 3 if name == "position" else 1
-    text = " ".join(
-        f"{value:d}" if kind == "Int64" else f"{value:.9g}" for value in np.ravel(values).tolist()
-    )
+    text = " ".join(f"{value:d}" if kind == "Int64" else f"{value:.9g}" for value in np.ravel(values).tolist())
     head = f'<DataArray type="{kind}" Name="{name}" NumberOfComponents="{components}" format="ascii">'
     return f"        {head}\n          {text}\n        </DataArray>"

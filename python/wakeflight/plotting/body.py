@@ -12,9 +12,7 @@ from .style import styled
 if TYPE_CHECKING:
     from .histories import Runs
 
-CAPTION = (
-    "Body states: velocities at the body origin along x forward, y right, z down; rates; 3-2-1 attitude."
-)
+CAPTION = "Body states: velocities at the body origin along x forward, y right, z down; rates; 3-2-1 attitude."
 PANELS = (
     Panel("u", "u [m/s]", span=1.0),
     Panel("v", "v [m/s]", span=1.0),

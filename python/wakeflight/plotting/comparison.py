@@ -62,14 +62,11 @@ def wake_side_views(runs: Mapping[str, xr.Dataset]) -> Figure:
         for (name, run), color, line in zip(runs.items(), style.COLORS, style.LINES, strict=False):
             k = int(np.argmin(np.abs(run["snapshot_revolution"].values - mark)))
             blade = run["wake"].isel(snapshot=k, blade=0) / float(run.attrs["radius"])
-            axes.plot(
-                blade.sel(xyz="x"), blade.sel(xyz="z"), color=color, linestyle=line, linewidth=1.0, label=name
-            )
+            axes.plot(blade.sel(xyz="x"), blade.sel(xyz="z"), color=color, linestyle=line, linewidth=1.0, label=name)
         axes.set_ylabel("$z_h/R$, up")
         axes.set_title(f"revolution {mark:g}", loc="left")
     low, high = (
-        f(limits)
-        for f, limits in zip((min, max), zip(*(a.get_ylim() for a in grid), strict=True), strict=True)
+        f(limits) for f, limits in zip((min, max), zip(*(a.get_ylim() for a in grid), strict=True), strict=True)
     )
     for axes in grid:
         axes.set(ylim=(low, high), aspect="equal")

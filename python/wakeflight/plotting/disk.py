@@ -56,9 +56,7 @@ def revolution_map(run: xr.Dataset, name: str, revolution: float) -> xr.DataArra
     grid = first + TURN / n_bins * np.arange(n_bins)
     mean = _periodic(grid, grid[filled], mean[filled])
     attributes = {**run[name].attrs, "revolution": float(revolution)}
-    return xr.DataArray(
-        mean, {"psi": grid, "station": run.station.values}, ("psi", "station"), name, attributes
-    )
+    return xr.DataArray(mean, {"psi": grid, "station": run.station.values}, ("psi", "station"), name, attributes)
 
 
 def difference(field: xr.DataArray, reference: xr.DataArray) -> xr.DataArray:
@@ -89,9 +87,7 @@ def harmonics(field: xr.DataArray) -> tuple[float, float, float]:
     return float(mean), float(f_1c), float(f_1s)
 
 
-def draw(
-    axes: Axes, field: xr.DataArray, limits: tuple[float, float], cmap: str, n_levels: int = 26
-) -> QuadContourSet:
+def draw(axes: Axes, field: xr.DataArray, limits: tuple[float, float], cmap: str, n_levels: int = 26) -> QuadContourSet:
     """One map (azimuth, station) as filled contours on the disk, nose to the left."""
     psi, station = field[field.dims[0]].values, field[field.dims[1]].values
     fine = np.linspace(0, TURN, REFINE * psi.size + 1)
@@ -171,11 +167,7 @@ def chosen_revolutions(run: xr.Dataset, revolutions: Sequence[float] | None, mos
     whole = sorted({round(float(mark)) for mark in marks if 2 <= round(float(mark)) <= last})
     if not whole:
         whole = sorted({round(n) for n in np.linspace(1, last, most + 1)} - {1})
-    pick = (
-        np.unique(np.round(np.linspace(0, len(whole) - 1, min(most, len(whole)))).astype(int))
-        if whole
-        else []
-    )
+    pick = np.unique(np.round(np.linspace(0, len(whole) - 1, min(most, len(whole)))).astype(int)) if whole else []
     return [float(whole[k]) for k in pick]
 
 

@@ -14,10 +14,7 @@ from .style import styled
 if TYPE_CHECKING:
     from .histories import Runs
 
-CAPTION = (
-    "Path of the body origin from the start: height gained over distance north, and seen from above. "
-    "Dots: 1 s."
-)
+CAPTION = "Path of the body origin from the start: height gained over distance north, and seen from above. Dots: 1 s."
 
 
 @styled

@@ -50,9 +50,7 @@ def seconds_per_revolution(run: xr.Dataset) -> float:
     return 2 * np.pi / float(run.attrs["omega"])
 
 
-def histories(
-    runs: Runs, panels: Sequence[Panel], title: str, columns: int = 2, height: float = 1.45
-) -> Figure:
+def histories(runs: Runs, panels: Sequence[Panel], title: str, columns: int = 2, height: float = 1.45) -> Figure:
     """Panels over time, in columns filled downwards; a second scale on top counts rotor revolutions.
 
     Several runs are drawn over each other with a legend. A run that failed ends with a cross.

@@ -102,9 +102,7 @@ def fan_plot(
             fillstyle="none",
             label=label,
         )
-    axes.set(
-        xlabel="rotor speed [% of nominal]", ylabel="frequency [Hz]", ylim=(0, top), xlim=(percent.min(), 108)
-    )
+    axes.set(xlabel="rotor speed [% of nominal]", ylabel="frequency [Hz]", ylim=(0, top), xlim=(percent.min(), 108))
     figure.legend(loc="outside right upper")
     figure.suptitle("Fan plot", fontsize=10, x=0.01, ha="left")
     return figure

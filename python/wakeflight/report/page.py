@@ -53,9 +53,7 @@ def write(
         title=_title(first, several),
         names=list(named),
         several=several,
-        failures={
-            name: run.attrs["failure"] for name, run in named.items() if not run.attrs.get("finished", 1)
-        },
+        failures={name: run.attrs["failure"] for name, run in named.items() if not run.attrs.get("finished", 1)},
         warnings=_common(warnings, named),
         tables=_tables(named, trim),
         figures=_figures(COMPARISONS if several else FIGURES, named if several else first, out_dir),
@@ -73,9 +71,7 @@ def _title(run: xr.Dataset, several: bool) -> str:
     return f"{run.attrs.get('aircraft', '')}: {flight}, {model}"
 
 
-def _tables(
-    named: Mapping[str, xr.Dataset], trim: xr.Dataset | None
-) -> dict[str, list[tuple[str, list[str]]]]:
+def _tables(named: Mapping[str, xr.Dataset], trim: xr.Dataset | None) -> dict[str, list[tuple[str, list[str]]]]:
     """Tables of the page: title -> rows of a label and one cell per run."""
     tables = {"Summary": _join(summary, named), "Work done": _join(counters, named)}
     if trim is not None:

@@ -35,11 +35,7 @@ class Row:
 def summary(run: xr.Dataset) -> list[Row]:
     """Flight, trim and wall clock of one run."""
     attrs = run.attrs
-    rows = [
-        Row(NAMES[name], _text(attrs[name]))
-        for name in ("aircraft", "maneuver", "condition")
-        if name in attrs
-    ]
+    rows = [Row(NAMES[name], _text(attrs[name])) for name in ("aircraft", "maneuver", "condition") if name in attrs]
     rows.append(Row(NAMES["inflow_model"], _text(attrs.get("inflow_model", "–"))))
     rows.append(Row("flown", f"{float(run.time[-1]):.2f} s, {revolutions_flown(run):.2f} revolutions"))
     rows.append(Row("finished", "yes" if attrs.get("finished", 1) else "no"))
@@ -92,11 +88,7 @@ def trim_table(trim: xr.Dataset) -> list[Row]:
         label = f"{variable.attrs['long_name']} [{variable.attrs['units']}]"
         if variable.ndim == 0:
             value = float(variable)
-            degrees = (
-                f" ({np.rad2deg(value):.2f}°)"
-                if variable.attrs["units"] == "rad" and "resid" not in name
-                else ""
-            )
+            degrees = f" ({np.rad2deg(value):.2f}°)" if variable.attrs["units"] == "rad" and "resid" not in name else ""
             rows.append(Row(label, f"{value:.6g}{degrees}"))
         elif variable.dims == ("xyz",):
             rows.append(Row(label, ", ".join(f"{value:.3g}" for value in variable.values)))
