@@ -185,16 +185,34 @@ def trim(
 def modes(
     aircraft: AircraftName = "uh60a",
     n_modes: Annotated[int | None, typer.Option("--modes", help="number of modes; the aircraft's own")] = None,
+    out: Out = None,
 ) -> None:
-    """Print blade frequencies per revolution and what each mode is made of."""
+    """Print blade frequencies and what each mode is made of, compare with references, draw shapes and fan plot."""
     from .aircraft import load_aircraft
 
     loaded = load_aircraft(aircraft)
-    if n_modes is not None and not 1 <= n_modes <= 30:
-        raise InputError.of("--modes", n_modes, "must lie between 1 and 30")
-    from .modes import blade_modes
+    if n_modes is not None and not 1 <= n_modes <= 12:
+        raise InputError.of("--modes", n_modes, "must lie between 1 and 12")
+    folder = _writable(out or Path("runs/modes"))
+    from .modes import blade_modes, fan, fan_reference, reference_table
+    from .plotting import modes as drawing
+    from .plotting import style
 
-    print(blade_modes(loaded, n_modes=n_modes).table())
+    found = blade_modes(loaded, n_modes=n_modes)
+    print(found.table())
+    if n_modes is None:
+        # as many as the references list
+        compared = reference_table(loaded, blade_modes(loaded, n_modes=7))
+        if compared is not None:
+            print(compared)
+    radius = float(loaded.rotor.radius)
+    shapes = found.shapes
+    figure = drawing.shapes(
+        found.radius / radius, shapes["flap"], shapes["lead"], shapes["twist"], found.frequencies, radius, found.labels
+    )
+    style.save(figure, _folder(folder) / "modes.png")
+    style.save(drawing.fan_plot(*fan(loaded, n_modes or 7), fan_reference(loaded)), folder / "fan-plot.png")
+    print(f"wrote {folder / 'modes.png'} and {folder / 'fan-plot.png'}")
 
 
 @app.command()

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import csv
 import json
 from dataclasses import dataclass
 
@@ -44,7 +45,8 @@ class BladeModes:
         """Frequencies and content, one mode a line."""
         lines = ["mode  frequency [1/rev]   flap    lag  torsion  mostly"]
         for i, (f, s, label) in enumerate(zip(self.frequencies, self.shares, self.labels, strict=True), start=1):
-            lines.append(f"{i:4d}  {f:17.4f}  {s[0]:5.1%}  {s[1]:5.1%}  {s[2]:7.1%}  {label}")
+            flap, lag, torsion = np.clip(s, 0.0, 1.0)
+            lines.append(f"{i:4d}  {f:17.4f}  {flap:5.1%}  {lag:5.1%}  {torsion:7.1%}  {label}")
         if not self.has_torsion:
             lines.append("warning: no mode kept is mostly torsion: keep more modes")
         return "\n".join(lines)
@@ -78,3 +80,45 @@ def blade_modes(
     return BladeModes(
         np.asarray(core.frequencies_per_rev), np.asarray(core.energy_shares), radius, shapes, omega, pitch
     )
+
+
+def reference_table(aircraft: Aircraft, modes: BladeModes) -> str | None:
+    """Frequencies beside every column of the aircraft's `reference/blade_frequencies.csv`, None where it has none.
+
+    The published labels are those of uncoupled modes; coupled ones are compared with them in ascending order.
+    """
+    path = aircraft.path.parent / "reference" / "blade_frequencies.csv"
+    if not path.is_file():
+        return None
+    with path.open() as stream:
+        rows = list(csv.DictReader(line for line in stream if not line.startswith("#")))
+    columns = [name for name in rows[0] if name not in ("mode", "note")]
+    lines = ["against published and computed frequencies, each column in ascending order [1/rev]:"]
+    for column in columns:
+        published = sorted((float(row[column]), row["mode"]) for row in rows if row[column])
+        lines.append(f"  {column}")
+        for (value, label), ours in zip(published, modes.frequencies, strict=False):
+            lines.append(f"    {label:<20} {value:8.4f}  ours {ours:8.4f}  difference {ours / value - 1:+7.2%}")
+    return "\n".join(lines)
+
+
+def fan(aircraft: Aircraft, n_modes: int = 7) -> tuple[np.ndarray, np.ndarray]:
+    """Rotor speeds up to the nominal one (n,) and frequencies (n, n_modes), both [rad/s], for a fan plot."""
+    speeds = np.linspace(0.1, 1.0, 19) * float(aircraft.rotor.omega)
+    return speeds, np.array([blade_modes(aircraft, n_modes, rotor_speed=w).frequencies * w for w in speeds])
+
+
+def fan_reference(aircraft: Aircraft) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+    """Points of the aircraft's `reference/fanplot_*.csv` (rotor speed ratio and columns in Hz), all under one label [rad/s]."""
+    points = {}
+    for path in sorted((aircraft.path.parent / "reference").glob("fanplot_*.csv")):
+        with path.open() as stream:
+            rows = list(csv.DictReader(line for line in stream if not line.startswith("#")))
+        speed, frequency = [], []
+        for row in rows:
+            for name, value in row.items():
+                if name.endswith("_Hz") and value:
+                    speed.append(float(row["rpm_ratio"]) * float(aircraft.rotor.omega))
+                    frequency.append(float(value) * 2 * np.pi)
+        points[path.stem.removeprefix("fanplot_").replace("_", " ")] = (np.array(speed), np.array(frequency))
+    return points
