@@ -1,0 +1,153 @@
+"""Flight: a trimmed aircraft stays, the coupling adds nothing of its own, threads change no bit, solvers agree."""
+
+import numpy as np
+import pytest
+
+import wakeflight as wf
+from wakeflight import _core
+from wakeflight.exchange import MarchingExchange
+from wakeflight.flight import Sticks, coupling_inputs, flight_model
+from wakeflight.integrators import IdaIntegrator, consistent_rate
+from wakeflight.model import Model
+
+STILL = wf.Maneuver("hands off", (("lateral", ((0.0, 0.0), (1.0, 0.0))),), seconds=1.0)
+
+
+def largest(flight, names, about_start=False):
+    values = [np.degrees(flight.data[name].values) for name in names]
+    return max(np.abs(v - v[0]).max() if about_start else np.abs(v).max() for v in values)
+
+
+def test_trimmed_flight_with_sticks_held_stays_for_a_second(baseline_dynamic):
+    flight = wf.fly(baseline_dynamic, STILL, inflow="dynamic")
+    assert largest(flight, "pqr") < 0.5
+    assert largest(flight, ("roll", "pitch", "yaw"), about_start=True) < 0.5
+
+
+@pytest.mark.parametrize("inflow", ["time-marching", "relaxation"])
+def test_trimmed_flight_with_a_free_wake_drifts_slowly(baseline_relaxation, inflow):
+    # the marching wake drifts from the relaxation trim by its own inflow; bounds are twice what was measured
+    flight = wf.fly(baseline_relaxation, STILL, inflow=inflow)
+    assert largest(flight, "pqr") < 2.5
+    assert largest(flight, ("roll", "pitch", "yaw"), about_start=True) < 1.5
+
+
+def test_a_convergence_phase_reproduces_the_wake_standing_alone_bit_for_bit(baseline_relaxation):
+    # with frozen states the exchange loop must add nothing to the stand-alone wake
+    start = baseline_relaxation
+    model = flight_model(start, "time-marching")
+    loop = MarchingExchange(model, start.wake)
+    alone = _core.TimeMarchingWake.from_relaxation(start.wake.relaxation, 0, model.wake_options)
+    q, q_dot = model.core.trim_motion(start.problem, start.x, loop.n)
+    y = start.state()
+    far, gamma = loop.lambda_far, loop.circulation
+    for step in range(1, loop.n // 2):
+        loop.frozen_step(start.problem, start.x)
+        rows = loop._rows(step)
+        psi = 2 * np.pi * np.asarray(rows) / loop.n
+        held = (y, start.x[:4], np.zeros(4), psi, q[rows], q_dot[rows])
+        gamma = model.core.solve_circulation(model.wake_options, *held, far, gamma)[0]
+        flap, lead = model.core.equivalent_angles(q[rows])
+        alone.step(*model.core.hub(y), np.column_stack([psi, flap, lead]), gamma)
+        far = alone.inflow_far()
+        gamma = model.core.solve_circulation(model.wake_options, *held, far, gamma)[0]
+        assert np.array_equal(loop.position(), alone.position())
+        assert np.array_equal(loop.circulation, gamma)
+
+
+def test_the_result_has_the_same_bits_with_one_thread_and_with_two(baseline_relaxation):
+    flights = []
+    for threads in (1, 2):
+        _core.set_threads(threads)
+        flights.append(wf.fly(baseline_relaxation, wf.arrested_descent(), inflow="time-marching", revolutions=1))
+    for name in flights[0].data.data_vars:
+        assert np.array_equal(flights[0].data[name].values, flights[1].data[name].values), name
+
+
+def test_ida_agrees_with_an_explicit_solver_of_high_order_over_a_coupling_step(baseline_relaxation):
+    from scipy.integrate import solve_ivp
+
+    start = baseline_relaxation
+    model = start.model
+    sticks = Sticks(wf.arrested_descent(), start.stick_si)
+    t0, t1 = 0.6, 0.6 + np.radians(10) / model.omega
+    held = start.inflow_map[[0, 9, 18, 27]]
+    inputs = coupling_inputs(start, sticks, t0, held, model.disk_mean(held))
+    y0 = start.state(t0)
+    solver = IdaIntegrator(model, rtol=1e-8, atol_scale=1e-3)
+    solver.start(t0, y0, consistent_rate(model, t0, y0, inputs))
+    solver.advance_to(t1, inputs)
+    reference = solve_ivp(
+        lambda t, y: consistent_rate(model, t, y, inputs), (t0, t1), y0, method="DOP853", rtol=1e-10, atol=1e-12
+    ).y[:, -1]
+    scale = np.maximum(np.abs(reference - y0), 1e-6)
+    assert np.max(np.abs(solver.state - reference) / scale) < 1e-4
+
+
+@pytest.mark.parametrize(
+    ("maneuver", "stick", "low", "high"),
+    [(wf.arrested_descent, "collective", 0.0, 3.7), (wf.roll_reversal, "lateral", 2.59 - 7.72, 2.59)],
+)
+def test_stick_histories_are_those_of_the_paper(maneuver, stick, low, high):
+    # [ribera2004, Fig. 5a, 12a]: extremes about trim, and where they are reached
+    history = maneuver()
+    times = np.linspace(0, history.duration(27.0), 2000)
+    offsets = np.array([history.offset(t) for t in times])
+    column = ("lateral", "longitudinal", "collective", "pedal").index(stick)
+    assert offsets[:, column].min() == pytest.approx(low, abs=0.02)
+    assert offsets[:, column].max() == pytest.approx(high, abs=0.02)
+    others = np.delete(offsets, column, axis=1)
+    assert np.all(others == 0)
+
+
+def test_a_flight_of_the_wrong_inflow_model_is_refused(baseline_dynamic):
+    with pytest.raises(wf.InputError, match="needs a trim with inflow='relaxation'"):
+        wf.fly(baseline_dynamic, STILL, inflow="time-marching")
+
+
+def test_wake_options_that_differ_from_those_of_the_trim_are_refused(baseline_relaxation):
+    with pytest.raises(wf.InputError, match="turns = 3"):
+        wf.fly(baseline_relaxation, STILL, inflow=wf.TimeMarchingWake(turns=3.0))
+
+
+def test_a_failure_in_flight_keeps_what_was_computed(baseline_dynamic, monkeypatch):
+    # a solver that gives up in the second revolution leaves the first in the partial flight
+    steps = {"n": 0}
+    original = IdaIntegrator.advance_to
+
+    def fails(self, t, inputs):
+        steps["n"] += 1
+        if steps["n"] > 40:
+            raise wf.NumericalFailure("made to fail")
+        original(self, t, inputs)
+
+    monkeypatch.setattr(IdaIntegrator, "advance_to", fails)
+    with pytest.raises(wf.NumericalFailure, match=r"revolution 1\.11: made to fail") as caught:
+        wf.fly(baseline_dynamic, STILL, inflow="dynamic")
+    data = caught.value.partial.data
+    assert data.attrs["finished"] == 0
+    assert "made to fail" in data.attrs["failure"]
+    assert data.sizes["time"] == 41
+    assert np.isfinite(data["u"].values).all()
+
+
+def test_the_exact_jacobian_is_that_of_the_whole_aircraft(baseline_dynamic):
+    # directional derivative through all states and their rates against central differences
+    start, model = baseline_dynamic, baseline_dynamic.model
+    assert isinstance(model, Model)
+    y = start.state()
+    inputs = start.inputs()
+    y_dot = consistent_rate(model, 0.0, y, inputs)
+    n = y.size
+    jacobian = np.empty((n, n))
+    model.core.jacobian(0.0, y, y_dot, inputs, 1.0, 37.0, jacobian)
+    rng = np.random.default_rng(3)
+    for _ in range(5):
+        d = rng.standard_normal(n) * 1e-3
+        f = [np.empty(n), np.empty(n)]
+        h = 1e-4
+        for sign, out in zip((1, -1), f, strict=True):
+            model.core.residual(0.0, y + sign * h * d, y_dot + sign * h * 37.0 * d, inputs, out)
+        difference = (f[0] - f[1]) / (2 * h)
+        exact = jacobian @ d
+        assert np.max(np.abs(exact - difference)) < 1e-6 * np.max(np.abs(exact))
