@@ -1,0 +1,42 @@
+"""Did the answer move: short flights against stored values. A value changes only with a line in the changelog.
+
+`python tests/regression/test_short_flights.py` writes the values anew.
+"""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import wakeflight as wf
+
+STORED = Path(__file__).parent / "short_flights.json"
+# relative to the largest magnitude in the flight; loads at an instant feel the solver's own steps most
+TOLERANCE = {"force_z": 1e-4, "moment_y": 1e-3}
+NAMES = ("u", "w", "p", "q", "pitch", "roll", "beta_1c", "beta_1s", "ct", "force_z", "moment_y", "inflow_mean")
+
+
+def sampled(start, inflow):
+    data = wf.fly(start, wf.arrested_descent(), inflow=inflow, revolutions=3).data
+    values = {name: data[name].values[::36].tolist() for name in NAMES}
+    values["circulation"] = data["circulation"].values[-1, 0].tolist()
+    if "wake" in data:
+        values["wake"] = data["wake"].values[-1, 0, ::36].ravel().tolist()
+    return values
+
+
+@pytest.mark.parametrize("inflow", ["dynamic", "relaxation", "time-marching"])
+def test_an_arrested_descent_of_three_revolutions_is_unchanged(inflow, request):
+    start = request.getfixturevalue("baseline_dynamic" if inflow == "dynamic" else "baseline_relaxation")
+    stored = json.loads(STORED.read_text())[inflow]
+    for name, values in sampled(start, inflow).items():
+        scale = np.max(np.abs(stored[name]))
+        assert np.max(np.abs(np.subtract(values, stored[name]))) < TOLERANCE.get(name, 1e-5) * scale, name
+
+
+if __name__ == "__main__":
+    aircraft = wf.load_aircraft("uh60a")
+    trims = {"dynamic": wf.trim(aircraft, inflow="dynamic"), "relaxation": wf.trim(aircraft, inflow="relaxation")}
+    trims["time-marching"] = trims["relaxation"]
+    STORED.write_text(json.dumps({name: sampled(start, name) for name, start in trims.items()}, indent=1) + "\n")
