@@ -161,8 +161,11 @@ def fly(
     integrator: str = "ida",
     progress: Progress | Silent | None = None,
     rtol: float = 1e-5,
+    stabilator: str = "held",
 ) -> Flight:
     """Fly `maneuver` from `start`.
+
+    stabilator: `held` at its trim incidence, or `scheduled`, following its schedule within the rate of its servo.
 
     inflow: name or model, by default time-marching from a trim on a free wake, dynamic from a dynamic one. revolutions:
     flown ones, by default the manoeuvre's. A numerical failure raises `NumericalFailure` whose `partial` is the Flight so far.
@@ -172,6 +175,8 @@ def fly(
     model = flight_model(start, inflow)
     if integrator != "ida":
         raise InputError.of("integrator", integrator, "allowed: ida (fixed is not in this version yet)")
+    if stabilator not in ("held", "scheduled"):
+        raise InputError.of("stabilator", stabilator, "allowed: held, scheduled")
     n_steps = flown_steps(model, maneuver, revolutions)
     sticks = Sticks(maneuver, start.stick_si)
     travel = start.aircraft.stick_travel_in
@@ -186,19 +191,22 @@ def fly(
     delta_t = 2 * np.pi / model.omega / model.steps_per_revolution
     progress.phase("flight", n_steps / model.steps_per_revolution)
     y, failure = start.state(0.0), None
+    incidence = start.stabilator_incidence
     try:
         for step in range(n_steps):
             t = step * delta_t
             held, mean = source.held(step)
-            inputs = coupling_inputs(start, sticks, t, held, mean)
+            if stabilator == "scheduled" and step > 0:
+                incidence = scheduled_incidence(model, incidence, y, sticks.at(t), delta_t)
+            inputs = coupling_inputs(sticks, t, held, mean, incidence)
             y_dot = consistent_rate(model, t, y, inputs)
-            recorder.record(step, t, y, y_dot, inputs, sticks.at(t), mean)
+            recorder.record(step, t, y, y_dot, inputs, sticks.at(t), mean, incidence)
 
             clock = time.perf_counter()
             if step == 0:
                 solver.start(t, y, y_dot)
             for t0, t1 in sticks.pieces(t, (step + 1) * delta_t):
-                solver.advance_to(t1, coupling_inputs(start, sticks, t0, held, mean))
+                solver.advance_to(t1, coupling_inputs(sticks, t0, held, mean, incidence))
             y = solver.state
             clock_wake = time.perf_counter()
             seconds["dynamics"] += clock_wake - clock
@@ -209,8 +217,8 @@ def fly(
             progress.advance(1 / model.steps_per_revolution, f"t = {t:.2f} s")
         t = n_steps * delta_t
         held, mean = source.held(n_steps)
-        inputs = coupling_inputs(start, sticks, t, held, mean)
-        recorder.record(n_steps, t, y, consistent_rate(model, t, y, inputs), inputs, sticks.at(t), mean)
+        inputs = coupling_inputs(sticks, t, held, mean, incidence)
+        recorder.record(n_steps, t, y, consistent_rate(model, t, y, inputs), inputs, sticks.at(t), mean, incidence)
     except (NumericalFailure, ArithmeticError, np.linalg.LinAlgError) as reason:
         revolution = (recorder.n_recorded - 1) / model.steps_per_revolution
         failure = f"flight of {maneuver.name} stopped in revolution {revolution:.2f}: {reason}"
@@ -266,9 +274,20 @@ def flown_steps(model: Model, maneuver: Maneuver, revolutions: float | None) -> 
     return max(1, round(revolutions * model.steps_per_revolution))
 
 
-def coupling_inputs(start: Trim, sticks: Sticks, t: float, held: np.ndarray | None, mean: float) -> _core.Inputs:
-    """Sticks from `t` on, inflow held, stabilator at its trim incidence."""
-    return _core.Inputs(sticks.at(t), sticks.rate(t), t, held, mean, start.stabilator_incidence)
+def coupling_inputs(
+    sticks: Sticks, t: float, held: np.ndarray | None, mean: float, stabilator_incidence: float
+) -> _core.Inputs:
+    """Sticks from `t` on; inflow and stabilator held."""
+    return _core.Inputs(sticks.at(t), sticks.rate(t), t, held, mean, stabilator_incidence)
+
+
+def scheduled_incidence(model: Model, incidence: float, y: np.ndarray, stick: np.ndarray, delta_t: float) -> float:
+    """Incidence [rad] after one coupling step toward the schedule, within the rate of the servo."""
+    asked = model.core.scheduled_stabilator(float(np.linalg.norm(y[:3])), float(stick[2]), float(y[4]))
+    if asked is None:
+        return incidence
+    wanted, rate = asked
+    return incidence + float(np.clip(wanted - incidence, -rate * delta_t, rate * delta_t))
 
 
 def inflow_source(model: Model, start: Trim, progress: Progress | Silent) -> tuple[InflowSource, ConvergencePhase]:

@@ -37,7 +37,16 @@ class Recorder:
         self.loads = {name: np.empty((n, 3)) for name in ("force", "moment", "hub_force", "hub_moment")}
         self.scalars = {
             name: np.empty(n)
-            for name in ("ct", "beta_1c", "beta_1s", "power", "inflow_mean", "odd_even", "max_displacement")
+            for name in (
+                "ct",
+                "beta_1c",
+                "beta_1s",
+                "power",
+                "inflow_mean",
+                "odd_even",
+                "max_displacement",
+                "stabilator",
+            )
         }
         self.snapshots: list[np.ndarray] = []
         self.snapshot_revolution: list[float] = []
@@ -51,6 +60,7 @@ class Recorder:
         inputs: _core.Inputs,
         stick: np.ndarray,
         mean_inflow: float,
+        stabilator: float,
     ) -> None:
         """Keep one instant: the state, its consistent rate, and the inputs that begin there."""
         out = self.model.core.outputs(t, y, y_dot, inputs)
@@ -63,6 +73,7 @@ class Recorder:
         for name in ("ct", "beta_1c", "beta_1s"):
             self.scalars[name][step] = out[name]
         self.scalars["power"][step] = sum(out["power"])
+        self.scalars["stabilator"][step] = stabilator
         dynamic = isinstance(self.model.inflow, DynamicInflow)
         first = self.model.layout["inflow"][0]
         self.scalars["inflow_mean"][step] = y[first] if dynamic else mean_inflow
@@ -97,7 +108,6 @@ class Recorder:
             "modal": self._modal(y),
             "hub_force": self.loads["hub_force"][:n],
             "hub_moment": self.loads["hub_moment"][:n],
-            "stabilator": np.full(n, self.start.stabilator_incidence),
         }
         arrays |= dict(zip("uvwpqr", y[:, :6].T, strict=True))
         arrays |= dict(zip(("north", "east", "down"), y[:, 10:13].T, strict=True))

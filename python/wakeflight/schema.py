@@ -84,8 +84,8 @@ RUN: tuple[Variable, ...] = (
     Variable(
         "modal",
         ("time", "blade", "mode"),
-        "1",
-        "modal coordinate, as a fraction of the mode's tip deflection",
+        "rad",
+        "modal coordinate as an angle: its largest tip deflection over R - e, or its tip twist",
     ),
     Variable("azimuth", BLADE, "rad", "blade azimuth, 0 over the tail, in the direction of rotation"),
     *_rows(
@@ -153,7 +153,7 @@ TRIM: tuple[Variable, ...] = (
         ("power", "W", "engine power: main rotor, tail rotor and accessories"),
     ),
     Variable("inflow", DISK, "1", "induced inflow v_i/(Omega R) along -z_h, positive down through the disk"),
-    Variable("modal", ("azimuth", "mode"), "1", "periodic modal coordinate, as a fraction of its tip deflection"),
+    Variable("modal", ("azimuth", "mode"), "rad", "periodic modal coordinate as an angle at the tip"),
     Variable("residual_linear", ("xyz",), "m/s2", "linear acceleration left over, body axes"),
     Variable("residual_angular", ("xyz",), "rad/s2", "angular acceleration left over, body axes"),
     Variable("residual_blade", (), "rad", "largest blade harmonic left over, equivalent tip angle"),
@@ -171,7 +171,13 @@ TRIM: tuple[Variable, ...] = (
         optional=True,
     ),
     *_rows(("xyz",), ("velocity_b", "m/s", "body velocity"), ("rates_b", "rad/s", "body rates"), optional=True),
-    Variable("modal_harmonics", ("mode", "harmonic"), "1", "harmonics of the modal coordinates", optional=True),
+    Variable(
+        "modal_harmonics",
+        ("mode", "harmonic"),
+        "rad",
+        "harmonics of the modal coordinates as angles at the tip",
+        optional=True,
+    ),
     *_rows(
         DISK,
         ("circulation", "m2/s", "bound circulation, positive with upward lift"),

@@ -72,7 +72,7 @@ def test_ida_agrees_with_an_explicit_solver_of_high_order_over_a_coupling_step(b
     sticks = Sticks(wf.arrested_descent(), start.stick_si)
     t0, t1 = 0.6, 0.6 + np.radians(10) / model.omega
     held = start.inflow_map[[0, 9, 18, 27]]
-    inputs = coupling_inputs(start, sticks, t0, held, model.disk_mean(held))
+    inputs = coupling_inputs(sticks, t0, held, model.disk_mean(held), start.stabilator_incidence)
     y0 = start.state(t0)
     solver = IdaIntegrator(model, rtol=1e-8, atol_scale=1e-3)
     solver.start(t0, y0, consistent_rate(model, t0, y0, inputs))
@@ -151,3 +151,12 @@ def test_the_exact_jacobian_is_that_of_the_whole_aircraft(baseline_dynamic):
         difference = (f[0] - f[1]) / (2 * h)
         exact = jacobian @ d
         assert np.max(np.abs(exact - difference)) < 1e-6 * np.max(np.abs(exact))
+
+
+def test_a_scheduled_stabilator_moves_no_faster_than_its_servo(baseline_dynamic):
+    flight = wf.fly(baseline_dynamic, wf.arrested_descent(), inflow="dynamic", revolutions=6, stabilator="scheduled")
+    incidence, time = np.degrees(flight.data["stabilator"].values), flight.data["time"].values
+    rate = np.abs(np.diff(incidence) / np.diff(time))
+    assert rate.max() == pytest.approx(7.0, rel=1e-6)
+    # the pitch-up and the raised collective ask for more incidence
+    assert incidence[-1] > incidence[0] + 1.0

@@ -252,6 +252,15 @@ impl PyAircraft {
         Ok(inputs.stabilator_incidence)
     }
 
+    /// Incidence [rad] the stabilator's schedule asks for at a true airspeed [m/s], collective stick [m], pitch rate [rad/s],
+    /// and the rate limit of its servo [rad/s]; None without a schedule.
+    fn scheduled_stabilator(&self, speed: f64, collective: f64, pitch_rate: f64) -> Option<(f64, f64)> {
+        let airframe = &self.inner.airframe;
+        let schedule = airframe.stabilator_schedule.as_ref()?;
+        let incidence = airframe.trim_incidence(speed, self.inner.air.density, collective, pitch_rate);
+        Some((incidence, schedule.rate_limit))
+    }
+
     /// Modal coordinates and rates (n_azimuths, n_modes) of the periodic motion.
     fn trim_motion<'py>(
         &self,

@@ -215,12 +215,13 @@ impl Aircraft {
             mean.aero_moment += loads.aero_moment.scaled(share);
             for i in 0..self.layout.n_modes {
                 let start = layout.mode(i);
-                let residual = loads.modal[i] * (self.angle_per_modal_force(i) / n as f64);
-                f[start] += residual;
+                let residual = loads.modal[i] / n as f64;
+                f[start] += residual * self.angle_per_modal_force(i, 0);
                 for k in 1..=layout.n_harmonics {
                     let (s, c) = (k as f64 * psi).sin_cos();
-                    f[start + 2 * k - 1] += residual * (2.0 * c);
-                    f[start + 2 * k] += residual * (2.0 * s);
+                    let angle = 2.0 * self.angle_per_modal_force(i, k);
+                    f[start + 2 * k - 1] += residual * (c * angle);
+                    f[start + 2 * k] += residual * (s * angle);
                 }
             }
         }
@@ -309,9 +310,13 @@ impl Aircraft {
         )
     }
 
-    /// Equivalent angle of a modal force: the static answer of the mode, its tip (or twist) as an angle.
-    pub fn angle_per_modal_force(&self, i: usize) -> f64 {
-        self.angle_per_coordinate(i) / self.rotor.blade.modes.frequency[i].powi(2)
+    /// Equivalent angle of a harmonic modal force: the answer of the mode at k per revolution, its tip (or twist) as an angle.
+    ///
+    /// angle/max(omega_i^2, |omega_i^2 - (k Omega)^2|): static below and near resonance.
+    pub fn angle_per_modal_force(&self, i: usize, k: usize) -> f64 {
+        let stiffness = self.rotor.blade.modes.frequency[i].powi(2);
+        let dynamic = (stiffness - (k as f64 * self.rotor.omega).powi(2)).abs();
+        self.angle_per_coordinate(i) / stiffness.max(dynamic)
     }
 
     /// Largest tip deflection over R - e, or tip twist, per unit of modal coordinate `i`.
