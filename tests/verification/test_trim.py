@@ -45,7 +45,7 @@ def test_level_flight_at_80_kt_is_that_of_the_genhel_port(uh60a):
         inches = published[f"{stick} stick" if stick != "pedal" else "pedal"] / 100 * travel[stick]
         assert start.stick[stick] == pytest.approx(inches, abs=0.5), stick
     assert np.degrees(mean["beta_0"]) == pytest.approx(published["beta0 coning"], abs=0.2)
-    assert lam[0] == pytest.approx(published["lambda0 inflow/"], rel=0.05)
+    assert lam[0] == pytest.approx(published["lambda0 inflow/(Omega R)"], rel=0.05)
     assert lam[1] == pytest.approx(published["lambda1c"], rel=0.05)
 
 
