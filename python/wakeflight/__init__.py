@@ -1,1 +1,114 @@
-"""Helicopters in unsteady manoeuvres with a time-accurate free vortex wake."""
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""Helicopters in unsteady manoeuvres with a time-accurate free vortex wake.
+
+    import wakeflight as wf
+
+    aircraft = wf.load_aircraft("uh60a")
+    condition = wf.FlightCondition(speed="80 kt", flight_path="-6 deg", altitude="5250 ft", weight="16000 lbf")
+    start = wf.trim(aircraft, condition, inflow="relaxation")
+    flight = wf.fly(start, wf.arrested_descent(), inflow="time-marching")
+
+Names are imported when they are first used, so that `import wakeflight` costs nothing.
+"""
+
+import sys
+from importlib import import_module
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from .aircraft import Aircraft, load_aircraft
+    from .condition import FlightCondition, condition_for
+    from .errors import InputError, NumericalFailure, WakeflightError
+    from .flight import Flight, fly
+    from .inflow import DynamicInflow, RelaxationWake, TimeMarchingWake, inflow_model
+    from .maneuvers import Maneuver, arrested_descent, load_maneuver, roll_reversal
+    from .modes import blade_modes
+    from .references import bibtex
+    from .trim import Trim, trim
+    from .vortex import induced_velocity
+
+_HOME = {
+    "Aircraft": "aircraft",
+    "load_aircraft": "aircraft",
+    "FlightCondition": "condition",
+    "condition_for": "condition",
+    "InputError": "errors",
+    "NumericalFailure": "errors",
+    "WakeflightError": "errors",
+    "Flight": "flight",
+    "fly": "flight",
+    "DynamicInflow": "inflow",
+    "RelaxationWake": "inflow",
+    "TimeMarchingWake": "inflow",
+    "inflow_model": "inflow",
+    "Maneuver": "maneuvers",
+    "arrested_descent": "maneuvers",
+    "load_maneuver": "maneuvers",
+    "roll_reversal": "maneuvers",
+    "blade_modes": "modes",
+    "bibtex": "references",
+    "Trim": "trim",
+    "trim": "trim",
+    "induced_velocity": "vortex",
+}
+
+__all__ = [
+    "Aircraft",
+    "DynamicInflow",
+    "Flight",
+    "FlightCondition",
+    "InputError",
+    "Maneuver",
+    "NumericalFailure",
+    "RelaxationWake",
+    "TimeMarchingWake",
+    "Trim",
+    "WakeflightError",
+    "__version__",
+    "arrested_descent",
+    "bibtex",
+    "blade_modes",
+    "condition_for",
+    "fly",
+    "induced_velocity",
+    "inflow_model",
+    "load_aircraft",
+    "load_maneuver",
+    "roll_reversal",
+    "trim",
+]
+
+
+def __getattr__(name: str) -> Any:
+    """Import a public name from its module on first use."""
+    if name == "__version__":
+        from importlib.metadata import PackageNotFoundError, version
+
+        try:
+            value: Any = version("wakeflight")
+        except PackageNotFoundError:  # run from a source tree
+            value = "0+unknown"
+    elif name in _HOME:
+        value = getattr(import_module(f".{_HOME[name]}", __name__), name)
+    else:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    """Public names, imported or not."""
+    return sorted(set(globals()) | set(__all__))
+
+
+class _Package(ModuleType):
+    """This package: `wakeflight.trim` is the verb, even after the module of that name was imported."""
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        """Keep a submodule from hiding the function of the same name."""
+        if not (isinstance(value, ModuleType) and _HOME.get(name) == name):
+            super().__setattr__(name, value)
+
+
+sys.modules[__name__].__class__ = _Package

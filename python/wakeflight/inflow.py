@@ -305,6 +305,13 @@ def inflow_model(inflow: str | InflowModel = "time-marching") -> InflowModel:
     raise InputError.of("inflow", inflow, f"allowed: {', '.join(MODELS)}, or a configured model")
 
 
+def trim_model(model: InflowModel) -> InflowModel:
+    """Model a flight with `model` is trimmed with: for the time-marching wake a relaxation wake of the same options."""
+    if not isinstance(model, TimeMarchingWake):
+        return model
+    return RelaxationWake(**{field.name: getattr(model, field.name) for field in fields(_Wake)})
+
+
 def _check_options(model: InflowModel) -> None:
     """Type and range of every option of `model`; angles given as text become radians."""
     for field in fields(model):

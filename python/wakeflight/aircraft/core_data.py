@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from . import tables
+from ..units import STANDARD_GRAVITY
 from .mass import airframe_inertia, blade_mass
 from .schema import AircraftFile, InterferenceTables, Loading, Rotor, Stabilator
 from .tables import TableFile
@@ -51,8 +52,9 @@ def assembled(
     inertia.append(float(loading.inertia.ixz))
     if loading.inertia.of == "gross":
         blades = int(rotor.n_blades) * blade_mass(parts["blade"]["structure"])
-        # published with the loading's own weight, whatever is flown
-        mass = float(loading.weight) / 9.80665 if loading.weight is not None else gross_mass
+        # published with a weight, whatever is flown: that of the loading, else that of the file's condition
+        weight = loading.weight if loading.weight is not None else spec.condition.weight
+        mass = float(weight) / STANDARD_GRAVITY
         inertia = airframe_inertia(inertia, mass, blades, hub)
     return {
         "rotor": {

@@ -1,0 +1,387 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""The command line: names in, everything checked before anything starts, one line for whatever is wrong.
+
+Exit codes: 0 finished, 2 bad input, 3 numerical failure (what was computed is kept).
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from dataclasses import dataclass, fields, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from .errors import InputError, NumericalFailure, WakeflightError, one_line
+
+if TYPE_CHECKING:
+    from .aircraft import Aircraft
+    from .condition import FlightCondition
+    from .inflow import InflowModel
+    from .maneuvers import Maneuver
+    from .progress import Progress
+
+app = typer.Typer(
+    add_completion=False,
+    no_args_is_help=True,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+    help="Helicopters in unsteady manoeuvres with a time-accurate free vortex wake.",
+)
+
+ManeuverName = Annotated[str, typer.Argument(metavar="MANEUVER", help="arrested-descent, roll-reversal, or a TOML file")]
+AircraftName = Annotated[str, typer.Option("--aircraft", metavar="NAME|FILE", help="uh60a, or an aircraft file")]
+LoadingName = Annotated[str | None, typer.Option("--loading", help="named mass and c.g. of the aircraft file")]
+ConditionName = Annotated[str | None, typer.Option("--condition", help="named condition of the aircraft file")]
+InflowName = Annotated[str, typer.Option("--inflow", help="time-marching, relaxation, dynamic")]
+Speed = Annotated[str | None, typer.Option("--speed", help='true airspeed, "80 kt"')]
+FlightPath = Annotated[str | None, typer.Option("--flight-path", help='climb +, "-6 deg"')]
+Altitude = Annotated[str | None, typer.Option("--altitude", help='standard atmosphere, "5250 ft"')]
+Weight = Annotated[str | None, typer.Option("--weight", help='"16000 lbf"; lb and kg are masses')]
+Sideslip = Annotated[str | None, typer.Option("--sideslip", help='wind from the right +, "5 deg"')]
+TurnRate = Annotated[str | None, typer.Option("--turn-rate", help='to the right +, "3 deg/s"')]
+Bank = Annotated[str | None, typer.Option("--bank", help='to the right +, "10 deg"')]
+Revolutions = Annotated[float | None, typer.Option("--revolutions", help="revolutions to fly; the manoeuvre's own")]
+AzimuthStep = Annotated[str | None, typer.Option("--azimuth-step", help='divides 360 deg / blades, "10 deg"')]
+WakeTurns = Annotated[float | None, typer.Option("--wake-turns", help="length of the free filaments")]
+WakeScheme = Annotated[str | None, typer.Option("--wake-scheme", help="bdf2, pc2b, pcc")]
+Integrator = Annotated[str, typer.Option("--integrator", help="ida, fixed")]
+Threads = Annotated[int | None, typer.Option("--threads", help="threads of the physics core")]
+Out = Annotated[Path | None, typer.Option("--out", help="folder for results")]
+
+
+@dataclass(frozen=True)
+class _Request:
+    """What was asked for, checked."""
+
+    aircraft: Aircraft
+    condition: FlightCondition
+    inflow: InflowModel
+    out: Path
+    maneuver: Maneuver | None = None
+
+
+@app.command()
+def fly(
+    maneuver: ManeuverName,
+    inflow: InflowName = "time-marching",
+    aircraft: AircraftName = "uh60a",
+    loading: LoadingName = None,
+    condition: ConditionName = None,
+    speed: Speed = None,
+    flight_path: FlightPath = None,
+    altitude: Altitude = None,
+    weight: Weight = None,
+    sideslip: Sideslip = None,
+    turn_rate: TurnRate = None,
+    bank: Bank = None,
+    revolutions: Revolutions = None,
+    azimuth_step: AzimuthStep = None,
+    wake_turns: WakeTurns = None,
+    wake_scheme: WakeScheme = None,
+    integrator: Integrator = "ida",
+    threads: Threads = None,
+    out: Out = None,
+) -> None:
+    """Trim, fly a manoeuvre, write run.nc, figures and report.html."""
+    given = _given(speed, flight_path, altitude, weight, sideslip, turn_rate, bank)
+    wake = {"azimuth_step": azimuth_step, "turns": wake_turns, "scheme": wake_scheme}
+    _check_flight(revolutions, integrator)
+    request = _request(aircraft, loading, condition, given, inflow, wake, threads, maneuver, out)
+    from .progress import Progress
+
+    with Progress() as progress:
+        _fly_once(request, revolutions, integrator, request.out, progress)
+
+
+@app.command()
+def compare(
+    maneuver: ManeuverName,
+    aircraft: AircraftName = "uh60a",
+    loading: LoadingName = None,
+    condition: ConditionName = None,
+    speed: Speed = None,
+    flight_path: FlightPath = None,
+    altitude: Altitude = None,
+    weight: Weight = None,
+    revolutions: Revolutions = None,
+    azimuth_step: AzimuthStep = None,
+    wake_turns: WakeTurns = None,
+    wake_scheme: WakeScheme = None,
+    integrator: Integrator = "ida",
+    threads: Threads = None,
+    out: Out = None,
+) -> None:
+    """Fly the same manoeuvre with all three inflow models and state the cost of each."""
+    from .inflow import MODELS
+    from .progress import Progress
+
+    given = _given(speed, flight_path, altitude, weight, None, None, None)
+    wake = {"azimuth_step": azimuth_step, "turns": wake_turns, "scheme": wake_scheme}
+    _check_flight(revolutions, integrator)
+    requests = [
+        _request(aircraft, loading, condition, given, name, wake, threads, maneuver, out, lenient=True)
+        for name in MODELS
+    ]
+    failures, lines = [], [f"{'inflow':<15}{'trim s':>9}{'flight s':>10}{'total s':>9}"]
+    with Progress() as progress:
+        for request in requests:
+            name = request.inflow.name
+            try:
+                flight = _fly_once(request, revolutions, integrator, request.out / name, progress)
+            except NumericalFailure as failure:
+                failures.append(f"{name}: {failure}")
+                continue
+            attributes = flight.data.attrs
+            in_flight = attributes.get("seconds_wake", 0.0) + attributes.get("seconds_dynamics", 0.0)
+            lines.append(
+                f"{name:<15}{attributes.get('seconds_trim', 0.0):>9.1f}{in_flight:>10.1f}"
+                f"{attributes.get('seconds_total', 0.0):>9.1f}"
+            )
+    print("\n".join(lines))
+    if failures:
+        raise NumericalFailure("; ".join(failures))
+
+
+@app.command()
+def trim(
+    inflow: InflowName = "time-marching",
+    aircraft: AircraftName = "uh60a",
+    loading: LoadingName = None,
+    condition: ConditionName = None,
+    speed: Speed = None,
+    flight_path: FlightPath = None,
+    altitude: Altitude = None,
+    weight: Weight = None,
+    sideslip: Sideslip = None,
+    turn_rate: TurnRate = None,
+    bank: Bank = None,
+    azimuth_step: AzimuthStep = None,
+    wake_turns: WakeTurns = None,
+    wake_scheme: WakeScheme = None,
+    threads: Threads = None,
+    out: Out = None,
+) -> None:
+    """Trim the aircraft, print a table, write trim.nc."""
+    given = _given(speed, flight_path, altitude, weight, sideslip, turn_rate, bank)
+    wake = {"azimuth_step": azimuth_step, "turns": wake_turns, "scheme": wake_scheme}
+    request = _request(aircraft, loading, condition, given, inflow, wake, threads, None, out or Path("runs/trim"))
+    from .progress import Progress
+    from .trim import trim as solve
+
+    with Progress() as progress:
+        start = solve(request.aircraft, request.condition, inflow=request.inflow, progress=progress)
+    print(start.table())
+    path = _folder(request.out) / "trim.nc"
+    start.to_dataset().to_netcdf(path, engine="h5netcdf")
+    print(f"wrote {path}")
+
+
+@app.command()
+def modes(
+    aircraft: AircraftName = "uh60a",
+    n_modes: Annotated[int | None, typer.Option("--modes", help="number of modes; the aircraft's own")] = None,
+) -> None:
+    """Print blade frequencies per revolution and what each mode is made of."""
+    from .aircraft import load_aircraft
+
+    loaded = load_aircraft(aircraft)
+    if n_modes is not None and not 1 <= n_modes <= 30:
+        raise InputError.of("--modes", n_modes, "must lie between 1 and 30")
+    from .modes import blade_modes
+
+    print(blade_modes(loaded, n_modes=n_modes).table())
+
+
+@app.command()
+def report(
+    run: Annotated[Path, typer.Argument(metavar="RUN.nc", help="result of a finished run")],
+    out: Out = None,
+) -> None:
+    """Rebuild figures and report of a finished run, beside it or in --out."""
+    if not run.is_file():
+        raise InputError.of("RUN.nc", str(run), "no such file; allowed: the run.nc of a finished run")
+    folder = _folder(_writable(out or run.parent))
+    from . import report as reports
+    from . import results
+
+    reports.write(results.load(run), folder)
+    print(f"wrote {folder / 'report.html'}")
+
+
+def _not_yet(name: str) -> None:
+    def command() -> None:
+        raise InputError(f"not in this version yet: {name}")
+
+    command.__doc__ = "Not in this version yet."
+    ignore = {"ignore_unknown_options": True, "allow_extra_args": True}
+    app.command(name, context_settings=ignore, add_help_option=True)(command)
+
+
+for _name in ("tunnel", "validate", "converge", "paper"):
+    _not_yet(_name)
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """Run the command line and exit; every expected error is one line on standard error."""
+    try:
+        code = app(args=arguments, prog_name="wakeflight", standalone_mode=False) or 0
+    except NumericalFailure as failure:
+        code = _complain(f"numerical failure: {failure}", failure.exit_code)
+    except WakeflightError as reason:
+        code = _complain(str(reason), reason.exit_code)
+    except KeyboardInterrupt:
+        code = _complain("interrupted", 130)
+    except Exception as reason:  # usage errors of the parser, which carry their own message
+        if not hasattr(reason, "format_message"):
+            raise
+        message = reason.format_message()
+        if type(reason).__name__.startswith("NoArgsIsHelp"):  # the message is the help text
+            print(message, file=sys.stderr)
+            code = 2
+        else:
+            code = _complain(message, 2)
+    sys.exit(code if isinstance(code, int) else 0)
+
+
+def _complain(message: str, code: int) -> int:
+    print(f"wakeflight: {one_line(message)}", file=sys.stderr)
+    return code
+
+
+def _given(
+    speed: str | None,
+    flight_path: str | None,
+    altitude: str | None,
+    weight: str | None,
+    sideslip: str | None,
+    turn_rate: str | None,
+    bank: str | None,
+) -> dict[str, Any]:
+    """Arguments of a FlightCondition, those that were given."""
+    names = {"speed": speed, "flight_path": flight_path, "altitude": altitude, "weight": weight}
+    names |= {"sideslip": sideslip, "turn_rate": turn_rate, "bank": bank}
+    return {name: value for name, value in names.items() if value is not None}
+
+
+def _check_flight(revolutions: float | None, integrator: str) -> None:
+    if revolutions is not None and not 0.0 < revolutions <= 10000.0:
+        raise InputError.of("--revolutions", revolutions, "must lie above 0 and at most 10000")
+    if integrator == "fixed":
+        raise InputError("not in this version yet: --integrator fixed; allowed: ida")
+    if integrator != "ida":
+        raise InputError.of("--integrator", integrator, "allowed: ida, fixed")
+
+
+def _request(
+    aircraft: str,
+    loading: str | None,
+    condition: str | None,
+    given: dict[str, Any],
+    inflow: str,
+    wake: dict[str, Any],
+    threads: int | None,
+    maneuver: str | None,
+    out: Path | None,
+    lenient: bool = False,
+) -> _Request:
+    """Everything that was typed, read and checked; nothing is started.
+
+    lenient: leave out wake options the model does not have instead of refusing them.
+    """
+    from .aircraft import load_aircraft
+    from .condition import condition_for
+    from .inflow import inflow_model
+    from .maneuvers import load_maneuver
+
+    _set_threads(threads)
+    flown = load_maneuver(maneuver) if maneuver is not None else None
+    model = _configured(inflow_model(inflow), wake, lenient)
+    loaded = load_aircraft(aircraft, loading)
+    complete = condition_for(loaded, named=condition, **given)
+    loaded.core_data(complete)
+    model.step(loaded)
+    if hasattr(model, "core_options"):
+        model.core_options(loaded)
+    if flown is not None:
+        flown.check_span(loaded.stick_travel_in)
+    folder = _writable(out if out is not None else Path("runs") / (flown.name if flown is not None else "run"))
+    return _Request(loaded, complete, model, folder, flown)
+
+
+def _configured(model: InflowModel, wake: dict[str, Any], lenient: bool) -> InflowModel:
+    """`model` with the wake options that were typed."""
+    known = {field.name for field in fields(model)}
+    options = {name: value for name, value in wake.items() if value is not None}
+    names = {"azimuth_step": "--azimuth-step", "turns": "--wake-turns", "scheme": "--wake-scheme"}
+    for name in [name for name in options if name not in known]:
+        if not lenient:
+            raise InputError.of(names[name], options[name], f"not an option of --inflow {model.name}")
+        del options[name]
+    return replace(model, **options)
+
+
+def _set_threads(threads: int | None) -> None:
+    """Pass --threads, or check WAKEFLIGHT_THREADS, which the physics core reads when it is loaded."""
+    if threads is not None:
+        if not 1 <= threads <= 1024:
+            raise InputError.of("--threads", threads, "must lie between 1 and 1024")
+        os.environ["WAKEFLIGHT_THREADS"] = str(threads)
+    text = os.environ.get("WAKEFLIGHT_THREADS", "1")
+    if not (text.isascii() and text.isdigit() and 1 <= int(text) <= 1024):
+        raise InputError.of("WAKEFLIGHT_THREADS", text, "must be a whole number between 1 and 1024")
+
+
+def _writable(folder: Path) -> Path:
+    """Refuse a folder for results that cannot be made."""
+    existing = next(each for each in (folder, *folder.absolute().parents) if each.exists())
+    if not existing.is_dir() or not os.access(existing, os.W_OK):
+        raise InputError.of("--out", str(folder), f"must be a folder that can be written to; {existing} is not")
+    return folder
+
+
+def _folder(folder: Path) -> Path:
+    folder.mkdir(parents=True, exist_ok=True)
+    return folder
+
+
+def _fly_once(
+    request: _Request, revolutions: float | None, integrator: str, out: Path, progress: Progress
+) -> Any:
+    """Trim and fly one request, save whatever was computed, raise where the flight did not finish."""
+    from .flight import fly as solve
+    from .inflow import trim_model
+    from .trim import trim as trim_solve
+
+    start = trim_solve(
+        request.aircraft, request.condition, inflow=trim_model(request.inflow), progress=progress
+    )
+    try:
+        flight = solve(
+            start,
+            request.maneuver,
+            inflow=request.inflow,
+            revolutions=revolutions,
+            integrator=integrator,
+            progress=progress,
+        )
+    except NumericalFailure as failure:
+        if failure.partial is not None:
+            _save(failure.partial, out, progress)
+        raise
+    _save(flight, out, progress)
+    if not flight.finished:
+        raise NumericalFailure(flight.failure or "the flight did not finish", partial=flight)
+    return flight
+
+
+def _save(flight: Any, out: Path, progress: Progress) -> None:
+    """Write run.nc, then figures and report: the numbers are safe before anything is drawn."""
+    folder = _folder(out)
+    flight.save(folder / "run.nc")
+    from . import report as reports
+
+    reports.write(flight.data, folder)
+    progress(f"wrote {folder / 'run.nc'}, figures and {folder / 'report.html'}")

@@ -1,0 +1,282 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""Manoeuvres: what the pilot's hands do, as piecewise-linear stick histories about trim.
+
+A file holds a name, a duration in revolutions or seconds, and for each stick that moves its corner points
+(time [s], inches from trim). Before the first corner a stick stays at trim, after the last where it was left.
+"""
+
+from __future__ import annotations
+
+import math
+import tomllib
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from importlib import resources
+from pathlib import Path
+from typing import Annotated, Any
+
+import numpy as np
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+
+from .errors import InputError
+from .units import quantity
+
+STICKS = ("lateral", "longitudinal", "collective", "pedal")
+"""Order of sticks everywhere: right +, aft +, up +, right +, inches from the stop."""
+
+SHIPPED = ("arrested-descent", "roll-reversal")
+"""Names of the manoeuvres that come with the package."""
+
+Corner = tuple[float, float]
+_Real = Annotated[float, Field(strict=True)]
+_Points = list[tuple[_Real, _Real]] | None
+
+
+@dataclass(frozen=True)
+class Maneuver:
+    """A stick history about trim.
+
+    corners_of: for each stick that moves, its corner points (time [s], inches from trim), times ascending.
+    revolutions, seconds: duration, one of the two given. travel_in: travel the inches belong to [in].
+    shipped: whether it comes with the package and is flown as published, even beyond the stops.
+    """
+
+    name: str
+    corners_of: tuple[tuple[str, tuple[Corner, ...]], ...]
+    revolutions: float | None = None
+    seconds: float | None = None
+    notes: str = ""
+    references: tuple[str, ...] = ()
+    travel_in: float = 10.0
+    shipped: bool = False
+
+    def __post_init__(self) -> None:
+        """Check names, times and values."""
+        if (self.revolutions is None) == (self.seconds is None):
+            raise InputError.of("duration", self.name, "must be given either in revolutions or in seconds")
+        length = self.revolutions if self.revolutions is not None else self.seconds
+        if not (math.isfinite(length) and 0.0 < length <= 10000.0):
+            raise InputError.of("duration", length, "must lie above 0 and at most 10000")
+        if not (math.isfinite(self.travel_in) and self.travel_in > 0.0):
+            raise InputError.of("travel", self.travel_in, "must be above 0 in")
+        for stick, corners in self.corners_of:
+            _check_corners(stick, corners)
+
+    def duration(self, omega: float) -> float:
+        """Length of the flight [s] with a rotor turning at `omega` [rad/s]."""
+        return self.seconds if self.seconds is not None else self.revolutions * 2.0 * math.pi / omega
+
+    def duration_revolutions(self, omega: float) -> float:
+        """Length of the flight in revolutions of a rotor turning at `omega` [rad/s]."""
+        return self.revolutions if self.revolutions is not None else self.seconds * omega / (2.0 * math.pi)
+
+    def corners(self) -> tuple[float, ...]:
+        """Times at which the slope of a stick changes [s], ascending, each once: the solver stops there."""
+        times = set()
+        for _, corners in self.corners_of:
+            slopes = [0.0, *_slopes(corners), 0.0]
+            times |= {time for (time, _), a, b in zip(corners, slopes, slopes[1:], strict=False) if a != b}
+        return tuple(sorted(times))
+
+    def offset(self, t: float) -> np.ndarray:
+        """Sticks from trim (4,) [in] at time `t` [s]."""
+        sticks = np.zeros(4)
+        for stick, corners in self.corners_of:
+            times, inches = zip(*corners, strict=True)
+            sticks[STICKS.index(stick)] = np.interp(t, times, inches)
+        return sticks
+
+    def stick(self, t: float, trim_in: Sequence[float]) -> np.ndarray:
+        """Sticks (4,) [in] from the stop at time `t` [s], about the trim sticks `trim_in` (4,) [in]."""
+        return np.asarray(trim_in, dtype=float) + self.offset(t)
+
+    def rate(self, t: float) -> np.ndarray:
+        """Stick rates (4,) [in/s] at time `t` [s]; at a corner the rate that follows."""
+        rates = np.zeros(4)
+        for stick, corners in self.corners_of:
+            for (start, _), (end, _), slope in zip(corners, corners[1:], _slopes(corners), strict=False):
+                if start <= t < end:
+                    rates[STICKS.index(stick)] = slope
+        return rates
+
+    def scaled_to(self, travel_in: Sequence[float]) -> Maneuver:
+        """The same manoeuvre in parts of the travel: inches of each stick times its travel over `travel_in` of this one.
+
+        travel_in: travel of the four sticks of the other aircraft (4,) [in].
+        """
+        scaled = tuple(
+            (stick, tuple((time, inches * travel_in[STICKS.index(stick)] / self.travel_in) for time, inches in corners))
+            for stick, corners in self.corners_of
+        )
+        return replace(self, corners_of=scaled)
+
+    def check_span(self, travel_in: Sequence[float]) -> None:
+        """Refuse a user's manoeuvre that cannot fit between the stops whatever the trim; travel_in (4,) [in]."""
+        for stick, corners in self.corners_of:
+            inches = [value for _, value in corners]
+            span, travel = max(inches) - min(inches), float(travel_in[STICKS.index(stick)])
+            if not self.shipped and span > travel * (1.0 + 1e-9):
+                allowed = f"must fit into the stick's travel of {travel:.4g} in"
+                raise InputError.of(f"{self.name}: {stick}", f"{span:g} in from end to end", allowed)
+
+    def check_travel(
+        self,
+        trim_in: Sequence[float],
+        travel_in: Sequence[float],
+        shipped: bool | None = None,
+        rate_limit_in: Sequence[float] | None = None,
+    ) -> list[str]:
+        """Warnings about sticks beyond their travel or faster than their limit; a user's manoeuvre beyond travel is refused.
+
+        trim_in, travel_in (4,) [in]: trim sticks and travel. shipped: treat as published; None is this manoeuvre's own.
+        rate_limit_in (4,) [in/s]: None is the full travel in one second.
+        """
+        warnings = []
+        shipped = self.shipped if shipped is None else shipped
+        limits = travel_in if rate_limit_in is None else rate_limit_in
+        for stick, corners in self.corners_of:
+            index = STICKS.index(stick)
+            trim, travel, limit = float(trim_in[index]), float(travel_in[index]), float(limits[index])
+            beyond, time, inches = max((max(-(trim + x), trim + x - travel), t, x) for t, x in corners)
+            if beyond > 1e-9:
+                reached = f"{trim + inches:.3f} in at {time:.4g} s, {beyond:.3f} in beyond its travel of {travel:.4g} in"
+                if not shipped:
+                    allowed = f"from a trim of {trim:.3f} in reaches {reached}; must stay between 0 and {travel:.4g} in"
+                    raise InputError.of(f"{self.name}: {stick}", f"{inches:g} in", allowed)
+                warnings.append(f"{self.name}: {stick} stick reaches {reached}; flown as published")
+            fastest = max((abs(slope) for slope in _slopes(corners)), default=0.0)
+            if fastest > limit * (1.0 + 1e-9):
+                warnings.append(f"{self.name}: {stick} moves at {fastest:.1f} in/s, beyond {limit:.4g} in/s; flown as given")
+        return warnings
+
+
+def arrested_descent(start: Any = None) -> Maneuver:
+    """Arrested descent [ribera2004]: collective up by 3.7 in and back, 12 revolutions.
+
+    start: begin of the first ramp as text with a unit (`"2 s"`); None is the shipped file's 0.4654 s, two revolutions.
+    """
+    maneuver = _shipped("arrested-descent")
+    if start is None:
+        return maneuver
+    first = quantity(start, "s", "start")
+    end = maneuver.duration(27.0)
+    if not 0.0 <= first < end:
+        raise InputError.of("start", start, f"must lie between 0 s and the end of the manoeuvre, {end:.4g} s")
+    moved = tuple(
+        (stick, tuple((first + time - corners[0][0], inches) for time, inches in corners))
+        for stick, corners in maneuver.corners_of
+    )
+    return replace(maneuver, corners_of=moved)
+
+
+def roll_reversal() -> Maneuver:
+    """Roll reversal [ribera2004]: lateral stick right, left, right and back to trim, 36 revolutions."""
+    return _shipped("roll-reversal")
+
+
+def load_maneuver(name_or_path: str | Path) -> Maneuver:
+    """Manoeuvre from a shipped name (`arrested-descent`, `roll-reversal`) or the path of a TOML file.
+
+    Raises InputError, one line naming file, key, value and what is allowed.
+    """
+    if str(name_or_path) in SHIPPED:
+        return _shipped(str(name_or_path))
+    path = Path(name_or_path)
+    if not path.is_file():
+        allowed = f"no such manoeuvre; allowed: {', '.join(SHIPPED)} or the path of a manoeuvre file (.toml)"
+        raise InputError.of("maneuver", str(name_or_path), allowed)
+    return _read(path, shipped=False)
+
+
+class _Duration(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True)
+    revolutions: _Real | None = None
+    seconds: _Real | None = None
+
+
+class _Controls(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True)
+    lateral: _Points = None
+    longitudinal: _Points = None
+    collective: _Points = None
+    pedal: _Points = None
+
+    @model_validator(mode="after")
+    def _some(self) -> _Controls:
+        if all(getattr(self, stick) is None for stick in STICKS):
+            raise ValueError(f"must name at least one of {', '.join(STICKS)}")
+        return self
+
+
+class _File(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True)
+    name: Annotated[str, Field(min_length=1)]
+    duration: _Duration
+    controls: _Controls
+    notes: str = ""
+    sources: list[str] = []
+    travel: _Real = 10.0
+
+
+def _shipped(name: str) -> Maneuver:
+    return _read(Path(str(resources.files(__package__))) / "maneuver_data" / f"{name}.toml", shipped=True)
+
+
+def _read(path: Path, shipped: bool) -> Maneuver:
+    try:
+        with path.open("rb") as stream:
+            data = tomllib.load(stream)
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as reason:
+        raise InputError.of("maneuver", str(path), f"not readable as TOML: {reason}") from reason
+    except OSError as reason:
+        raise InputError.of("maneuver", str(path), f"cannot be read: {reason.strerror}") from reason
+    try:
+        file = _File.model_validate(data)
+    except ValidationError as reason:
+        error = reason.errors()[0]
+        key = ".".join(str(part) for part in error["loc"])
+        message = error["msg"].removeprefix("Value error, ")
+        if error["type"] == "extra_forbidden":
+            groups: dict[str, type[BaseModel]] = {"controls": _Controls, "duration": _Duration}
+            group = groups.get(str(error["loc"][0]), _File) if len(error["loc"]) > 1 else _File
+            raise InputError.of(key, "unknown key", f"allowed: {', '.join(group.model_fields)}", file=path) from None
+        value = "missing" if error["type"] == "missing" else error["input"]
+        raise InputError.of(key, value, message, file=path) from None
+    corners = tuple(
+        (stick, tuple(points)) for stick in STICKS if (points := getattr(file.controls, stick)) is not None
+    )
+    try:
+        return Maneuver(
+            name=file.name,
+            corners_of=corners,
+            revolutions=file.duration.revolutions,
+            seconds=file.duration.seconds,
+            notes=file.notes.strip(),
+            references=tuple(file.sources),
+            travel_in=file.travel,
+            shipped=shipped,
+        )
+    except InputError as reason:
+        raise InputError(f"{path}: {reason}") from None
+
+
+def _check_corners(stick: str, corners: Sequence[Corner]) -> None:
+    if stick not in STICKS:
+        raise InputError.of("controls", stick, f"allowed: {', '.join(STICKS)}")
+    if len(corners) < 2:
+        raise InputError.of(stick, list(corners), "must have at least two corner points [time s, inches from trim]")
+    for time, inches in corners:
+        if not (math.isfinite(time) and math.isfinite(inches)):
+            raise InputError.of(stick, [time, inches], "must be finite")
+    if corners[0][0] < 0.0:
+        raise InputError.of(stick, f"{corners[0][0]:g} s", "must start at 0 s or later")
+    if corners[0][1] != 0.0:
+        raise InputError.of(stick, f"{corners[0][1]:g} in", "must start from trim, 0 in")
+    for (before, _), (after, _) in zip(corners, corners[1:], strict=False):
+        if not after > before:
+            raise InputError.of(stick, f"{before:g} s, {after:g} s", "times must ascend strictly")
+
+
+def _slopes(corners: Sequence[Corner]) -> list[float]:
+    """Slopes of the pieces between corners [in/s]."""
+    return [(b[1] - a[1]) / (b[0] - a[0]) for a, b in zip(corners, corners[1:], strict=False)]

@@ -1,0 +1,214 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""Command line: whatever is wrong gets one line and exit code 2, and nothing is started."""
+
+import shutil
+import subprocess
+import sys
+from importlib import resources
+from pathlib import Path
+
+import pytest
+
+from wakeflight import cli
+from wakeflight.errors import InputError, NumericalFailure
+
+FLY = ["fly", "arrested-descent"]
+
+
+def _run(capsys, arguments):
+    with pytest.raises(SystemExit) as caught:
+        cli.main(arguments)
+    streams = capsys.readouterr()
+    return caught.value.code, streams.out, streams.err
+
+
+@pytest.fixture(autouse=True)
+def _nothing_starts(monkeypatch):
+    # whatever gets past the checks fails the test
+    def started(*_args):
+        raise AssertionError("started")
+
+    monkeypatch.setattr(cli, "_fly_once", started)
+    monkeypatch.delenv("WAKEFLIGHT_THREADS", raising=False)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "named"),
+    [
+        ([*FLY, "--speed", "80"], "speed"),
+        ([*FLY, "--speed", "80 kg"], "speed"),
+        ([*FLY, "--speed", "-5 kt"], "speed"),
+        ([*FLY, "--flight-path", "6"], "flight_path"),
+        ([*FLY, "--altitude", "5250 kt"], "altitude"),
+        ([*FLY, "--weight", "0 lbf"], "weight"),
+        ([*FLY, "--weight", "500 lbf"], "blades"),
+        (["fly", "no-such-manoeuvre"], "no-such-manoeuvre"),
+        ([*FLY, "--aircraft", "/nowhere.toml"], "/nowhere.toml"),
+        ([*FLY, "--loading", "empty"], "loading"),
+        ([*FLY, "--condition", "nowhere"], "condition"),
+        ([*FLY, "--inflow", "magic"], "inflow"),
+        ([*FLY, "--azimuth-step", "7 deg"], "azimuth_step"),
+        ([*FLY, "--azimuth-step", "8 deg"], "azimuth_step"),
+        ([*FLY, "--azimuth-step", "10"], "azimuth_step"),
+        ([*FLY, "--wake-turns", "0"], "turns"),
+        ([*FLY, "--wake-scheme", "euler"], "scheme"),
+        ([*FLY, "--wake-scheme", "pcc", "--inflow", "dynamic"], "--wake-scheme"),
+        ([*FLY, "--integrator", "fixed"], "not in this version yet"),
+        ([*FLY, "--integrator", "rk4"], "integrator"),
+        ([*FLY, "--revolutions", "0"], "revolutions"),
+        ([*FLY, "--revolutions", "many"], "revolutions"),
+        ([*FLY, "--threads", "0"], "threads"),
+        ([*FLY, "--out", "/proc/nowhere/run"], "--out"),
+        ([*FLY, "--nonsense"], "--nonsense"),
+        (["fly"], "MANEUVER"),
+        (["sail"], "sail"),
+        (["tunnel", "--collective", "8 deg"], "not in this version yet"),
+        (["validate"], "not in this version yet"),
+        (["converge", "azimuth"], "not in this version yet"),
+        (["paper"], "not in this version yet"),
+        (["compare", "arrested-descent", "--speed", "80"], "speed"),
+        (["trim", "--speed", "80"], "speed"),
+        (["trim", "--sideslip", "5 deg", "--bank", "5 deg"], "sideslip"),
+        (["modes", "--aircraft", "uh61"], "uh61"),
+        (["modes", "--modes", "0"], "--modes"),
+        (["report", "/nowhere/run.nc"], "/nowhere/run.nc"),
+    ],
+)
+def test_bad_input_is_one_line_and_exit_code_2(capsys, arguments, named):
+    code, out, err = _run(capsys, arguments)
+    assert code == 2
+    assert out == ""
+    assert err.count("\n") == 1
+    assert named in err
+
+
+def test_a_manoeuvre_before_zero_is_refused(capsys, tmp_path):
+    path = tmp_path / "early.toml"
+    path.write_text('name = "early"\nduration = { seconds = 2 }\n[controls]\ncollective = [[-0.1, 0], [1, 1]]\n')
+    code, _, err = _run(capsys, ["fly", str(path)])
+    assert (code, err.count("\n")) == (2, 1)
+    assert "must start at 0 s or later" in err
+
+
+def test_a_users_manoeuvre_that_cannot_fit_between_the_stops_is_refused(capsys, tmp_path):
+    path = tmp_path / "wide.toml"
+    path.write_text('name = "wide"\nduration = { seconds = 2 }\n[controls]\ncollective = [[0, 0], [1, 11]]\n')
+    code, _, err = _run(capsys, ["fly", str(path)])
+    assert (code, err.count("\n")) == (2, 1)
+    assert "travel" in err
+
+
+@pytest.mark.parametrize(
+    ("file", "old", "new", "named"),
+    [
+        ("uh60a.toml", "[drive]\n", "[drive]\nspare = 1\n", "drive.spare"),
+        ("sc1095_cl.csv", "\n-180,", "\n-170.5,", "-180 to 180 deg"),
+    ],
+)
+def test_a_wrong_aircraft_file_is_refused(capsys, tmp_path, file, old, new, named):
+    folder = tmp_path / "uh60a"
+    shutil.copytree(Path(str(resources.files("wakeflight.aircraft"))) / "uh60a", folder)
+    (folder / file).write_text((folder / file).read_text().replace(old, new, 1))
+    code, _, err = _run(capsys, [*FLY, "--aircraft", str(folder / "uh60a.toml")])
+    assert (code, err.count("\n")) == (2, 1)
+    assert named in err
+
+
+def test_wrong_threads_in_the_environment_are_refused(capsys, monkeypatch):
+    monkeypatch.setenv("WAKEFLIGHT_THREADS", "two")
+    code, _, err = _run(capsys, FLY)
+    assert code == 2
+    assert "WAKEFLIGHT_THREADS" in err
+
+
+def test_a_checked_request_is_handed_on(monkeypatch, tmp_path):
+    seen = {}
+
+    def record(request, revolutions, integrator, out, progress):
+        seen.update(request=request, revolutions=revolutions, integrator=integrator, out=out)
+
+    monkeypatch.setattr(cli, "_fly_once", record)
+    typed = ["--speed", "60 kt", "--revolutions", "2", "--azimuth-step", "5 deg", "--wake-turns", "3"]
+    with pytest.raises(SystemExit) as caught:
+        cli.main([*FLY, *typed, "--wake-scheme", "pc2b", "--out", str(tmp_path / "a" / "b")])
+    assert caught.value.code == 0
+    request = seen["request"]
+    assert request.condition.speed == pytest.approx(60 * 1852 / 3600)
+    assert request.condition.is_complete
+    assert (request.inflow.name, request.inflow.turns, request.inflow.scheme) == ("time-marching", 3.0, "pc2b")
+    assert request.inflow.steps_per_revolution == 72
+    assert (seen["revolutions"], seen["integrator"]) == (2.0, "ida")
+    # nothing is written before there is something to write
+    assert not (tmp_path / "a").exists()
+
+
+@pytest.mark.parametrize(
+    ("error", "code"),
+    [(NumericalFailure("flight: 1.2 s,\nazimuth 40 deg, blade 2: no solution"), 3), (InputError("no"), 2)],
+)
+def test_errors_become_one_line_and_their_exit_code(capsys, monkeypatch, error, code):
+    def fail(*_args):
+        raise error
+
+    monkeypatch.setattr(cli, "_fly_once", fail)
+    found, _, err = _run(capsys, FLY)
+    assert found == code
+    assert err.strip().splitlines()[-1].startswith("wakeflight: ")
+
+
+def test_a_failed_flight_is_saved_before_exit_code_3(monkeypatch, tmp_path):
+    saved = []
+
+    class Flight:
+        finished = False
+        failure = "flight: no step possible at 1.2 s"
+
+    monkeypatch.undo()
+    monkeypatch.setattr(cli, "_save", lambda flight, out, progress: saved.append(out))
+    monkeypatch.setitem(sys.modules, "wakeflight.trim", _module(trim=lambda *a, **k: "start"))
+    monkeypatch.setitem(sys.modules, "wakeflight.flight", _module(fly=lambda *a, **k: Flight()))
+    with pytest.raises(SystemExit) as caught:
+        cli.main([*FLY, "--out", str(tmp_path)])
+    assert caught.value.code == 3
+    assert saved == [tmp_path]
+
+
+def _module(**names):
+    from types import SimpleNamespace
+
+    return SimpleNamespace(**names)
+
+
+def test_help_needs_no_heavy_import():
+    code = (
+        "import sys; sys.argv = ['wakeflight', '--help']\n"
+        "from wakeflight.cli import main\n"
+        "try:\n    main()\nexcept SystemExit as end:\n    assert end.code == 0, end.code\n"
+        "heavy = {'pydantic', 'numpy', 'pint', 'xarray', 'matplotlib', 'scipy'} & set(sys.modules)\n"
+        "assert not heavy, heavy"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    for command in ("fly", "compare", "trim", "modes", "tunnel", "report", "validate", "converge", "paper"):
+        assert command in done.stdout
+
+
+def test_importing_the_package_imports_nothing_heavy():
+    code = (
+        "import sys, wakeflight as wf\n"
+        "assert not {'pydantic', 'numpy', 'pint', 'xarray'} & set(sys.modules)\n"
+        "assert 'trim' in dir(wf) and wf.load_aircraft('uh60a').name == 'UH-60A'\n"
+        "assert wf.roll_reversal().name == 'roll-reversal'"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+
+
+def test_a_verb_is_not_hidden_by_its_module():
+    from types import ModuleType
+
+    import wakeflight
+
+    # what the import system does after importing the submodule wakeflight.trim
+    wakeflight.trim = ModuleType("wakeflight.trim")
+    assert not isinstance(vars(wakeflight).get("trim"), ModuleType)

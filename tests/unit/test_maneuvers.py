@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""Manoeuvres: the paper's stick histories, and what a user's file may hold."""
+
+import numpy as np
+import pytest
+
+from wakeflight.errors import InputError
+from wakeflight.maneuvers import Maneuver, arrested_descent, load_maneuver, roll_reversal
+
+OMEGA = 27.0
+TRIM = (4.6, 5.0, 4.0, 2.7)
+TRAVEL = (10.0, 10.0, 10.0, 5.38)
+
+
+def test_arrested_descent_is_the_papers():
+    maneuver = arrested_descent()
+    assert maneuver.duration(OMEGA) == pytest.approx(12 * 2 * np.pi / 27)
+    assert maneuver.duration_revolutions(OMEGA) == 12
+    # starts after two revolutions, peaks half a second later, is back after another half
+    assert maneuver.corners() == pytest.approx((2 * 2 * np.pi / 27, 0.9654, 1.4654), abs=1e-4)
+    for t, inches in ((0.0, 0.0), (0.4, 0.0), (0.7154, 1.85), (0.9654, 3.7), (1.2154, 1.85), (2.0, 0.0)):
+        assert maneuver.stick(t, TRIM) == pytest.approx([4.6, 5.0, 4.0 + inches, 2.7])
+    assert maneuver.rate(0.7)[2] == pytest.approx(7.4)
+    assert maneuver.rate(1.2)[2] == pytest.approx(-7.4)
+    assert maneuver.rate(0.2)[2] == 0.0
+    assert maneuver.check_travel(TRIM, TRAVEL) == []
+
+
+def test_arrested_descent_can_start_when_the_paper_prints_it():
+    assert arrested_descent(start="2 s").corners() == pytest.approx((2.0, 2.5, 3.0))
+    for wrong in ("-1 s", "9 s", 2.0, "2 kt"):
+        with pytest.raises(InputError, match="start"):
+            arrested_descent(start=wrong)
+
+
+def test_roll_reversal_is_the_papers():
+    maneuver = roll_reversal()
+    assert maneuver.duration(OMEGA) == pytest.approx(8.38, abs=0.005)
+    lateral = [maneuver.stick(t, TRIM)[0] - TRIM[0] for t in (0.2, 0.43, 2.5, 3.3, 4.7, 5.5, 6.9, 7.2, 8.3)]
+    assert lateral == pytest.approx([0.0, 2.59, 2.59, -5.13, -5.13, 2.59, 2.59, 0.0, 0.0])
+    assert lateral[1] - lateral[3] == pytest.approx(7.72)
+    assert maneuver.corners() == pytest.approx((0.23, 0.43, 2.6, 3.3, 4.8, 5.5, 7.0, 7.2))
+
+
+def test_the_shipped_roll_reversal_is_flown_beyond_the_stop_with_a_warning():
+    warnings = roll_reversal().check_travel(TRIM, TRAVEL)
+    assert len(warnings) == 2
+    assert "0.530 in beyond" in warnings[0]
+    # the ramps of 0.2 s are the fastest: 2.59 in at 12.95 in/s against 10 in/s
+    assert "beyond 10 in/s" in warnings[1]
+
+
+def test_a_users_manoeuvre_beyond_the_travel_is_refused():
+    with pytest.raises(InputError, match="lateral"):
+        roll_reversal().check_travel(TRIM, TRAVEL, shipped=False)
+    wide = Maneuver("wide", (("pedal", ((0.0, 0.0), (1.0, 6.0))),), seconds=2.0)
+    with pytest.raises(InputError, match="travel"):
+        wide.check_span(TRAVEL)
+
+
+def test_rates_are_the_slopes_of_the_stick():
+    maneuver = roll_reversal()
+    for t in (0.1, 0.33, 1.0, 2.9, 4.0, 5.1, 7.1, 8.0):
+        step = 1e-6
+        slope = (maneuver.stick(t + step, TRIM) - maneuver.stick(t - step, TRIM)) / (2 * step)
+        assert maneuver.rate(t) == pytest.approx(slope, abs=1e-6)
+
+
+def test_another_aircraft_gets_the_same_share_of_its_travel():
+    scaled = arrested_descent().scaled_to((8.65, 12.12, 9.0, 4.34))
+    assert scaled.offset(0.9654)[2] == pytest.approx(3.7 * 0.9)
+
+
+def test_any_history_can_come_from_a_file(tmp_path):
+    path = tmp_path / "doublet.toml"
+    path.write_text(
+        'name = "doublet"\nduration = { seconds = 3 }\n[controls]\n'
+        "pedal = [[0.5, 0], [0.6, 0.5], [1.5, 0.5], [1.6, -0.5]]\nlongitudinal = [[0, 0], [1, 1.0]]\n"
+    )
+    maneuver = load_maneuver(path)
+    assert not maneuver.shipped
+    assert maneuver.duration_revolutions(OMEGA) == pytest.approx(3 * OMEGA / (2 * np.pi))
+    assert maneuver.offset(10.0) == pytest.approx([0.0, 1.0, 0.0, -0.5])
+    assert maneuver.corners() == pytest.approx((0.0, 0.5, 0.6, 1.0, 1.5, 1.6))
+
+
+GOOD = 'name = "x"\nduration = { revolutions = 5 }\n[controls]\ncollective = [[0.5, 0], [1, 1]]\n'
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "named"),
+    [
+        ("[0.5, 0]", "[-0.5, 0]", "collective"),
+        ("[0.5, 0]", "[1.5, 0]", "collective"),
+        ("[0.5, 0]", "[0.5, 1]", "trim"),
+        ("[0.5, 0]", "[nan, 0]", "finite"),
+        ("[0.5, 0]", '["0.5", 0]', "collective"),
+        ("[0.5, 0], ", "", "two corner"),
+        ("collective", "throttle", "throttle"),
+        ("revolutions = 5", "revolutions = 0", "duration"),
+        ("revolutions = 5", "turns = 5", "turns"),
+        ("revolutions = 5", "revolutions = 5, seconds = 2", "duration"),
+        ("duration = { revolutions = 5 }\n", "", "duration"),
+        ('name = "x"\n', 'name = "x"\nspeed = 3\n', "speed"),
+        ("[controls]", "[controls", "TOML"),
+    ],
+)
+def test_a_wrong_file_gets_one_line(tmp_path, old, new, named):
+    path = tmp_path / "wrong.toml"
+    assert old in GOOD
+    path.write_text(GOOD.replace(old, new))
+    with pytest.raises(InputError) as caught:
+        load_maneuver(path)
+    message = str(caught.value)
+    assert "wrong.toml" in message
+    assert named in message
+    assert "\n" not in message
+
+
+def test_an_unknown_name_lists_the_known_ones():
+    with pytest.raises(InputError, match=r"arrested-descent, roll-reversal"):
+        load_maneuver("loop")
