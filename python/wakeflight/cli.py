@@ -31,10 +31,18 @@ app = typer.Typer(
     help="Helicopters in unsteady manoeuvres with a time-accurate free vortex wake.",
 )
 
-ManeuverName = Annotated[str, typer.Argument(metavar="MANEUVER", help="arrested-descent, roll-reversal, or a TOML file")]
-AircraftName = Annotated[str, typer.Option("--aircraft", metavar="NAME|FILE", help="uh60a, or an aircraft file")]
-LoadingName = Annotated[str | None, typer.Option("--loading", help="named mass and c.g. of the aircraft file")]
-ConditionName = Annotated[str | None, typer.Option("--condition", help="named condition of the aircraft file")]
+ManeuverName = Annotated[
+    str, typer.Argument(metavar="MANEUVER", help="arrested-descent, roll-reversal, or a TOML file")
+]
+AircraftName = Annotated[
+    str, typer.Option("--aircraft", metavar="NAME|FILE", help="uh60a, or an aircraft file")
+]
+LoadingName = Annotated[
+    str | None, typer.Option("--loading", help="named mass and c.g. of the aircraft file")
+]
+ConditionName = Annotated[
+    str | None, typer.Option("--condition", help="named condition of the aircraft file")
+]
 InflowName = Annotated[str, typer.Option("--inflow", help="time-marching, relaxation, dynamic")]
 Speed = Annotated[str | None, typer.Option("--speed", help='true airspeed, "80 kt"')]
 FlightPath = Annotated[str | None, typer.Option("--flight-path", help='climb +, "-6 deg"')]
@@ -43,7 +51,9 @@ Weight = Annotated[str | None, typer.Option("--weight", help='"16000 lbf"; lb an
 Sideslip = Annotated[str | None, typer.Option("--sideslip", help='wind from the right +, "5 deg"')]
 TurnRate = Annotated[str | None, typer.Option("--turn-rate", help='to the right +, "3 deg/s"')]
 Bank = Annotated[str | None, typer.Option("--bank", help='to the right +, "10 deg"')]
-Revolutions = Annotated[float | None, typer.Option("--revolutions", help="revolutions to fly; the manoeuvre's own")]
+Revolutions = Annotated[
+    float | None, typer.Option("--revolutions", help="revolutions to fly; the manoeuvre's own")
+]
 AzimuthStep = Annotated[str | None, typer.Option("--azimuth-step", help='divides 360 deg / blades, "10 deg"')]
 WakeTurns = Annotated[float | None, typer.Option("--wake-turns", help="length of the free filaments")]
 WakeScheme = Annotated[str | None, typer.Option("--wake-scheme", help="bdf2, pc2b, pcc")]
@@ -167,7 +177,9 @@ def trim(
     """Trim the aircraft, print a table, write trim.nc."""
     given = _given(speed, flight_path, altitude, weight, sideslip, turn_rate, bank)
     wake = {"azimuth_step": azimuth_step, "turns": wake_turns, "scheme": wake_scheme}
-    request = _request(aircraft, loading, condition, given, inflow, wake, threads, None, out or Path("runs/trim"))
+    request = _request(
+        aircraft, loading, condition, given, inflow, wake, threads, None, out or Path("runs/trim")
+    )
     from .progress import Progress
     from .trim import trim as solve
 
@@ -182,7 +194,9 @@ def trim(
 @app.command()
 def modes(
     aircraft: AircraftName = "uh60a",
-    n_modes: Annotated[int | None, typer.Option("--modes", help="number of modes; the aircraft's own")] = None,
+    n_modes: Annotated[
+        int | None, typer.Option("--modes", help="number of modes; the aircraft's own")
+    ] = None,
 ) -> None:
     """Print blade frequencies per revolution and what each mode is made of."""
     from .aircraft import load_aircraft
@@ -307,7 +321,9 @@ def _request(
         model.core_options(loaded)
     if flown is not None:
         flown.check_span(loaded.stick_travel_in)
-    folder = _writable(out if out is not None else Path("runs") / (flown.name if flown is not None else "run"))
+    folder = _writable(
+        out if out is not None else Path("runs") / (flown.name if flown is not None else "run")
+    )
     return _Request(loaded, complete, model, folder, flown)
 
 
@@ -338,12 +354,17 @@ def _writable(folder: Path) -> Path:
     """Refuse a folder for results that cannot be made."""
     existing = next(each for each in (folder, *folder.absolute().parents) if each.exists())
     if not existing.is_dir() or not os.access(existing, os.W_OK):
-        raise InputError.of("--out", str(folder), f"must be a folder that can be written to; {existing} is not")
+        raise InputError.of(
+            "--out", str(folder), f"must be a folder that can be written to; {existing} is not"
+        )
     return folder
 
 
 def _folder(folder: Path) -> Path:
-    folder.mkdir(parents=True, exist_ok=True)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as reason:
+        raise InputError.of("--out", str(folder), f"cannot be made: {reason.strerror}") from reason
     return folder
 
 

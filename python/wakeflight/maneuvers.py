@@ -105,7 +105,13 @@ class Maneuver:
         travel_in: travel of the four sticks of the other aircraft (4,) [in].
         """
         scaled = tuple(
-            (stick, tuple((time, inches * travel_in[STICKS.index(stick)] / self.travel_in) for time, inches in corners))
+            (
+                stick,
+                tuple(
+                    (time, inches * travel_in[STICKS.index(stick)] / self.travel_in)
+                    for time, inches in corners
+                ),
+            )
             for stick, corners in self.corners_of
         )
         return replace(self, corners_of=scaled)
@@ -146,7 +152,9 @@ class Maneuver:
                 warnings.append(f"{self.name}: {stick} stick reaches {reached}; flown as published")
             fastest = max((abs(slope) for slope in _slopes(corners)), default=0.0)
             if fastest > limit * (1.0 + 1e-9):
-                warnings.append(f"{self.name}: {stick} moves at {fastest:.1f} in/s, beyond {limit:.4g} in/s; flown as given")
+                warnings.append(
+                    f"{self.name}: {stick} moves at {fastest:.1f} in/s, beyond {limit:.4g} in/s; flown as given"
+                )
         return warnings
 
 
@@ -239,7 +247,9 @@ def _read(path: Path, shipped: bool) -> Maneuver:
         if error["type"] == "extra_forbidden":
             groups: dict[str, type[BaseModel]] = {"controls": _Controls, "duration": _Duration}
             group = groups.get(str(error["loc"][0]), _File) if len(error["loc"]) > 1 else _File
-            raise InputError.of(key, "unknown key", f"allowed: {', '.join(group.model_fields)}", file=path) from None
+            raise InputError.of(
+                key, "unknown key", f"allowed: {', '.join(group.model_fields)}", file=path
+            ) from None
         value = "missing" if error["type"] == "missing" else error["input"]
         raise InputError.of(key, value, message, file=path) from None
     corners = tuple(
@@ -264,7 +274,9 @@ def _check_corners(stick: str, corners: Sequence[Corner]) -> None:
     if stick not in STICKS:
         raise InputError.of("controls", stick, f"allowed: {', '.join(STICKS)}")
     if len(corners) < 2:
-        raise InputError.of(stick, list(corners), "must have at least two corner points [time s, inches from trim]")
+        raise InputError.of(
+            stick, list(corners), "must have at least two corner points [time s, inches from trim]"
+        )
     for time, inches in corners:
         if not (math.isfinite(time) and math.isfinite(inches)):
             raise InputError.of(stick, [time, inches], "must be finite")

@@ -48,13 +48,17 @@ def test_positions_are_from_the_nominal_centre_of_gravity_in_body_axes():
     inch = 0.0254
     assert data["rotor"]["position"] == pytest.approx([(358 - 341.25) * inch, 0.0, (248.2 - 315) * inch])
     # aft of the centre of gravity, on the right, above it
-    assert data["tail_rotor"]["position"] == pytest.approx([(358 - 732) * inch, 14 * inch, (248.2 - 324.7) * inch])
+    assert data["tail_rotor"]["position"] == pytest.approx(
+        [(358 - 732) * inch, 14 * inch, (248.2 - 324.7) * inch]
+    )
 
 
 def test_core_data_is_plain_si():
     data = load_aircraft("uh60a").core_data()
     assert json.loads(json.dumps(data)) == data
-    assert data["tail_rotor"]["pitch_per_thrust"] == pytest.approx(math.radians(0.001019) / 4.4482216, rel=1e-3)
+    assert data["tail_rotor"]["pitch_per_thrust"] == pytest.approx(
+        math.radians(0.001019) / 4.4482216, rel=1e-3
+    )
     assert data["tail_rotor"]["fin_blockage"] == pytest.approx([0.9, 1.0, 30 * 1852 / 3600])
     assert data["rotor"]["lag_damper"]["spring_rate"] == 0.0
     assert data["rotor"]["blade"]["root"] == "hinged"
@@ -81,9 +85,10 @@ def test_gross_inertia_loses_the_blades_at_the_hub():
     base = load_aircraft("uh60a").core_data()["mass"]["inertia"]
     other = load_aircraft("uh60a", loading="cr166309").core_data()["mass"]["inertia"]
     assert other[:3] == pytest.approx(base[:3], rel=0.05)
-    # computed independently for the BO-105: 2200 kg, four blades of 28.717 kg
+    # computed independently for the BO-105: 2200 kg, four blades of 28.716922 kg; the table, which begins at the
+    # clamp to one figure more, has 28.717068 kg: 5e-6 of what is taken out
     bo105 = load_aircraft(BO105 / "bo105.toml").core_data()["mass"]["inertia"]
-    assert bo105 == pytest.approx([1167.5331, 4706.7568, 4098.2237, 645.64452], rel=1e-6)
+    assert bo105 == pytest.approx([1167.5331, 4706.7568, 4098.2237, 645.64452], rel=2e-6)
 
 
 def test_an_aircraft_does_not_change():
@@ -99,7 +104,7 @@ def test_an_aircraft_does_not_change():
 def test_every_number_keeps_its_source_and_confidence():
     for aircraft in (load_aircraft("uh60a"), load_aircraft(BO105 / "bo105.toml")):
         rows = aircraft.sources()
-        assert len(rows) > 70
+        assert len(rows) > 60
         assert all(row.sources and row.confidence for row in rows)
         assert set(aircraft.references) <= known_keys()
         assert bibtex(aircraft.references).count("@") == len(aircraft.references)
@@ -141,7 +146,9 @@ def test_a_part_that_is_not_in_the_file_is_absent(tmp_path, name):
 def test_the_lag_spring_is_off_until_switched_on(tmp_path):
     path = _copy(tmp_path)
     path.write_text(path.read_text().replace("use_spring = false", "use_spring = true"))
-    assert load_aircraft(path).core_data()["rotor"]["lag_damper"]["spring_rate"] == pytest.approx(20418.618, rel=1e-7)
+    assert load_aircraft(path).core_data()["rotor"]["lag_damper"]["spring_rate"] == pytest.approx(
+        20418.618, rel=1e-7
+    )
 
 
 def _copy(tmp_path):
@@ -160,11 +167,21 @@ def _copy(tmp_path):
         ("value = 26.83", "value = true", "rotor.radius"),
         ("n_blades = { value = 4,", "n_blades = { value = 4.5,", "n_blades"),
         ("n_blades = { value = 4,", "blades = { value = 4,", "rotor.blades"),
-        ('omega = { value = 27.0, unit = "rad/s", source = ["genhel", "tm85890"], confidence = "A",',
-         'omega = { value = 27.0, unit = "rad/s", source = "hearsay", confidence = "A",', "hearsay"),
-        ('value = 27.0, unit = "rad/s", source = ["genhel", "tm85890"], confidence = "A"',
-         'value = 27.0, unit = "rad/s", source = "genhel", confidence = "D"', "confidence"),
-        ('value = 27.0, unit = "rad/s", source = ["genhel", "tm85890"],', 'value = 27.0, unit = "rad/s",', "source"),
+        (
+            'omega = { value = 27.0, unit = "rad/s", source = ["genhel", "tm85890"], confidence = "A",',
+            'omega = { value = 27.0, unit = "rad/s", source = "hearsay", confidence = "A",',
+            "hearsay",
+        ),
+        (
+            'value = 27.0, unit = "rad/s", source = ["genhel", "tm85890"], confidence = "A"',
+            'value = 27.0, unit = "rad/s", source = "genhel", confidence = "D"',
+            "confidence",
+        ),
+        (
+            'value = 27.0, unit = "rad/s", source = ["genhel", "tm85890"],',
+            'value = 27.0, unit = "rad/s",',
+            "source",
+        ),
         ("omega = { value = 27.0,", "omega = 27.0 #", "rotor.omega"),
         ("[rotor.blade]", "[rotor.blade]\ncolour = 3", "rotor.blade.colour"),
         ('root = "hinged"', 'root = "glued"', "rotor.blade.root"),
@@ -179,9 +196,17 @@ def _copy(tmp_path):
         ("fin.csv", "fins.csv", "fins.csv"),
         ("value = [341.25, 0.0, 315.0]", "value = [341.25, 0.0]", "rotor.hub"),
         ("root_cutout = { value = 3.5", "root_cutout = { value = 33.5", "root_cutout"),
-        ('references = ["ribera2004"], text = "Ribera', 'references = ["nobody1900"], text = "Ribera', "nobody1900"),
+        (
+            'references = ["ribera2004"], text = "Ribera',
+            'references = ["nobody1900"], text = "Ribera',
+            "nobody1900",
+        ),
         ("altitude = { value = 5250", "altitde = { value = 5250", "condition.altitde"),
-        ('altitude = { value = 5250, unit = "ft", source = "paper", confidence = "A" }\n', "", "condition.altitude"),
+        (
+            'altitude = { value = 5250, unit = "ft", source = "paper", confidence = "A" }\n',
+            "",
+            "condition.altitude",
+        ),
     ],
 )
 def test_a_wrong_number_gets_one_line_naming_file_key_and_what_is_allowed(tmp_path, old, new, named):
@@ -195,8 +220,8 @@ def test_a_wrong_number_gets_one_line_naming_file_key_and_what_is_allowed(tmp_pa
 @pytest.mark.parametrize(
     ("file", "old", "new", "named"),
     [
-        ("sc1095_cl.csv", "\n-180,", "\n-170.5,", "alpha"),
-        ("sc1095_cl.csv", ",M0.9,M1.0", ",M0.75,M0.8", "M..."),
+        ("sc1095_cl.csv", "\n-180,0,0,0,0,0,0,0,0,0,0,0", "", "-180 to 180 deg"),
+        ("sc1095_cl.csv", "M0.7,M0.8,M0.9,M1.0", "M0.65,M0.7,M0.75,M0.8", "Mach 0 to 0.9"),
         ("sc1095_cl.csv", "\n-176,", "\n-179,", "alpha"),
         ("sc1095_cd.csv", "\n180,0.02", "\n180,abc", "M0.0"),
         ("blade_geometry.csv", "\n1,-10.9,1.73", "\n0.99,-10.9,1.73", "tip"),

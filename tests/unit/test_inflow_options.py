@@ -25,14 +25,27 @@ def test_the_defaults_are_those_of_the_coupled_flight():
     assert options["steps_per_revolution"] == 36
     assert options["near_wake_angle"] == pytest.approx(math.pi / 6)
     assert options["chord"] == pytest.approx(0.527304)
-    expected = {"turns": 4.0, "scheme": "bdf2", "predictor": "same", "form": "displacement", "core_radius": 0.02}
-    expected |= {"core_growth": 3e-4, "tip_strength": "equivalent", "inboard_wake": "none", "bound_core": 0.25}
+    expected = {
+        "turns": 4.0,
+        "scheme": "bdf2",
+        "predictor": "same",
+        "form": "displacement",
+        "core_radius": 0.02,
+    }
+    expected |= {
+        "core_growth": 3e-4,
+        "tip_strength": "equivalent",
+        "inboard_wake": "none",
+        "bound_core": 0.25,
+    }
     expected |= {"near_wake_segments": 6, "relaxation": 0.5, "n_stations": 20, "station_core_floor": 0.25}
     assert {key: options[key] for key in expected} == expected
 
 
 def test_options_reach_the_core():
-    wake = TimeMarchingWake(turns=5, azimuth_step="5 deg", scheme="pc2b", tip_strength="max", inboard_wake="sheet")
+    wake = TimeMarchingWake(
+        turns=5, azimuth_step="5 deg", scheme="pc2b", tip_strength="max", inboard_wake="sheet"
+    )
     options = wake.core_options(load_aircraft("uh60a"))
     assert (options["turns"], options["steps_per_revolution"]) == (5.0, 72)
     assert (options["scheme"], options["tip_strength"], options["inboard_wake"]) == ("pc2b", "max", "sheet")

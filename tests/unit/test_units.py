@@ -57,7 +57,9 @@ def test_a_pint_quantity_is_accepted():
         quantity(ureg.Quantity(80, "kg"), "m/s", "speed")
 
 
-@pytest.mark.parametrize("value", ["80", 80, 80.0, None, True, "kt", "eighty kt", "nan kt", "1e999 kt", "80 kg", "80 foo", ""])
+@pytest.mark.parametrize(
+    "value", ["80", 80, 80.0, None, True, "kt", "eighty kt", "nan kt", "1e999 kt", "80 kg", "80 foo", ""]
+)
 def test_anything_else_is_refused_in_one_line(value):
     with pytest.raises(InputError) as caught:
         quantity(value, "m/s", "speed")
