@@ -363,7 +363,10 @@ def _writable(folder: Path) -> Path:
 
 
 def _folder(folder: Path) -> Path:
-    folder.mkdir(parents=True, exist_ok=True)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as reason:
+        raise InputError.of("--out", str(folder), f"cannot be made: {reason.strerror}") from reason
     return folder
 
 

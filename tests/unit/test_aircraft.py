@@ -81,9 +81,10 @@ def test_gross_inertia_loses_the_blades_at_the_hub():
     base = load_aircraft("uh60a").core_data()["mass"]["inertia"]
     other = load_aircraft("uh60a", loading="cr166309").core_data()["mass"]["inertia"]
     assert other[:3] == pytest.approx(base[:3], rel=0.05)
-    # computed independently for the BO-105: 2200 kg, four blades of 28.717 kg
+    # computed independently for the BO-105: 2200 kg, four blades of 28.716922 kg; the table, which begins at the
+    # clamp to one figure more, has 28.717068 kg: 5e-6 of what is taken out
     bo105 = load_aircraft(BO105 / "bo105.toml").core_data()["mass"]["inertia"]
-    assert bo105 == pytest.approx([1167.5331, 4706.7568, 4098.2237, 645.64452], abs=0.01)
+    assert bo105 == pytest.approx([1167.5331, 4706.7568, 4098.2237, 645.64452], rel=2e-6)
 
 
 def test_an_aircraft_does_not_change():
@@ -99,7 +100,7 @@ def test_an_aircraft_does_not_change():
 def test_every_number_keeps_its_source_and_confidence():
     for aircraft in (load_aircraft("uh60a"), load_aircraft(BO105 / "bo105.toml")):
         rows = aircraft.sources()
-        assert len(rows) > 70
+        assert len(rows) > 60
         assert all(row.sources and row.confidence for row in rows)
         assert set(aircraft.references) <= known_keys()
         assert bibtex(aircraft.references).count("@") == len(aircraft.references)
@@ -213,8 +214,8 @@ def test_a_wrong_number_gets_one_line_naming_file_key_and_what_is_allowed(tmp_pa
 @pytest.mark.parametrize(
     ("file", "old", "new", "named"),
     [
-        ("sc1095_cl.csv", "\n-180,", "\n-170.5,", "alpha"),
-        ("sc1095_cl.csv", ",M0.9,M1.0", ",M0.75,M0.8", "M..."),
+        ("sc1095_cl.csv", "\n-180,0,0,0,0,0,0,0,0,0,0,0", "", "-180 to 180 deg"),
+        ("sc1095_cl.csv", "M0.7,M0.8,M0.9,M1.0", "M0.65,M0.7,M0.75,M0.8", "Mach 0 to 0.9"),
         ("sc1095_cl.csv", "\n-176,", "\n-179,", "alpha"),
         ("sc1095_cd.csv", "\n180,0.02", "\n180,abc", "M0.0"),
         ("blade_geometry.csv", "\n1,-10.9,1.73", "\n0.99,-10.9,1.73", "tip"),

@@ -9,6 +9,7 @@ from typing import Any
 
 from ..units import STANDARD_GRAVITY
 from . import tables
+from ..units import STANDARD_GRAVITY
 from .mass import airframe_inertia, blade_mass
 from .schema import AircraftFile, InterferenceTables, Loading, Rotor, Stabilator
 from .tables import TableFile
