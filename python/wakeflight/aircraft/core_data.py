@@ -7,8 +7,8 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from . import tables
 from ..units import STANDARD_GRAVITY
+from . import tables
 from .mass import airframe_inertia, blade_mass
 from .schema import AircraftFile, InterferenceTables, Loading, Rotor, Stabilator
 from .tables import TableFile
@@ -34,7 +34,7 @@ def fixed_parts(spec: AircraftFile) -> dict[str, Any]:
 def assembled(
     spec: AircraftFile, parts: dict[str, Any], loading: Loading, gross_mass: float
 ) -> dict[str, Any]:
-    """The whole aircraft at a gross mass [kg]: positions from the nominal gross centre of gravity, body axes."""
+    """Whole aircraft at a gross mass [kg]; positions from the nominal gross centre of gravity, body axes."""
 
     def from_cg(station: Sequence[float]) -> list[float]:
         return [
