@@ -4,7 +4,7 @@
     import wakeflight as wf
 
     aircraft = wf.load_aircraft("uh60a")
-    condition = wf.FlightCondition(speed="80 kt", flight_path="-6 deg", altitude="5250 ft", weight="16000 lbf")
+    condition = wf.FlightCondition(speed="80 kt", flight_path="-6 deg", altitude="5250 ft")
     start = wf.trim(aircraft, condition, inflow="relaxation")
     flight = wf.fly(start, wf.arrested_descent(), inflow="time-marching")
 

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from .aircraft import Aircraft
 
 HEADING_FREE_SPEED = convert(60.0, "kt", "m/s")
-"""At and above this speed [m/s] trim asks for zero bank and leaves the heading free; below, zero sideslip and bank free."""
+"""Speed [m/s] from which trim asks for zero bank, heading free; below, zero sideslip, bank free."""
 
 # SI unit, smallest, largest, unit shown
 _RANGES = {
@@ -30,7 +30,7 @@ _MASS = (10.0, 1e5)
 
 @dataclass(frozen=True, init=False)
 class FlightCondition:
-    """Flight condition, in SI and radians once made; what is not given is None until an aircraft completes it.
+    """Flight condition, SI and radians inside; what is not given is None until an aircraft completes it.
 
     speed [m/s]: true airspeed, never negative. flight_path [rad]: climb +. altitude [m]: standard atmosphere.
     gross_mass [kg]: of the weight given as force (lbf, N) or mass (lb, kg), weight = mass x 9.80665 m/s2.
@@ -89,7 +89,7 @@ class FlightCondition:
         return None not in (self.speed, self.flight_path, self.altitude, self.gross_mass, self.heading)
 
     def completed(self, aircraft: Aircraft, named: str | None = None) -> FlightCondition:
-        """This condition with what is not given taken from the aircraft; `named`: one of its alternative conditions."""
+        """This condition completed by the aircraft; `named`: one of its alternative conditions."""
         values = {field.name: getattr(self, field.name) for field in fields(self)}
         for name in ("speed", "flight_path", "altitude", "gross_mass"):
             if values[name] is None:
@@ -115,7 +115,7 @@ class FlightCondition:
 def condition_for(
     aircraft: Aircraft, condition: FlightCondition | None = None, named: str | None = None, **given: Any
 ) -> FlightCondition:
-    """Complete condition of `aircraft`: `condition`, or one made of `given` (text with units); the rest from its file.
+    """Complete condition: `condition`, or one made of `given` (text with units); the rest from the aircraft.
 
     named: an alternative condition of the file to take the rest from.
     """

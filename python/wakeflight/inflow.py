@@ -69,7 +69,7 @@ _WHOLE = {
 
 
 def check_azimuth_step(step: float, n_blades: int | None = None, field: str = "azimuth_step") -> None:
-    """Refuse an azimuth step [rad] that does not divide the angle between blades (a turn, if they are not known)."""
+    """Refuse an azimuth step [rad] that does not divide the angle between blades (a turn, if unknown)."""
     degrees = math.degrees(step)
     between = 360.0 / (n_blades or 1)
     allowed = f"must be positive and divide {between:g} deg" + (f" ({n_blades} blades)" if n_blades else "")
@@ -90,7 +90,7 @@ class _Wake:
     form: str = "displacement"
     """What the scheme acts on: displacement from the release point, or position."""
     tip_strength: str = "equivalent"
-    """Strength of the tip vortex: uniform circulation of equal thrust, maximum, or mean of the outboard part."""
+    """Tip vortex strength: uniform circulation of equal thrust, maximum or mean of the outboard part."""
     tip_strength_inner: float = 0.5
     """Inner end of the part `max` and `mean` look at, over the radius."""
     inboard_wake: str = "none"
@@ -198,7 +198,7 @@ class _Wake:
 
 @dataclass(frozen=True)
 class RelaxationWake(_Wake):
-    """Free wake made periodic by relaxation [bagai1995]; in flight its inflow is renewed once per revolution."""
+    """Free wake made periodic by relaxation [bagai1995]; in flight renewed once per revolution."""
 
     relaxation: float = 0.5
     """Share of a new geometry taken in each sweep: 0.3 in hover."""
@@ -258,7 +258,7 @@ class TimeMarchingWake(_Wake):
 
 @dataclass(frozen=True)
 class DynamicInflow:
-    """Three-state dynamic inflow of Pitt and Peters [pitt1981]: mean and first harmonics, always in the state."""
+    """Three-state dynamic inflow [pitt1981]: mean and first harmonics, always in the state."""
 
     n_stations: int = 20
     """Blade stations, at the middles of elements that narrow towards the tip."""
@@ -306,7 +306,7 @@ def inflow_model(inflow: str | InflowModel = "time-marching") -> InflowModel:
 
 
 def trim_model(model: InflowModel) -> InflowModel:
-    """Model a flight with `model` is trimmed with: for the time-marching wake a relaxation wake of the same options."""
+    """Model to trim with before a flight with `model`: relaxation for a time-marching wake."""
     if not isinstance(model, TimeMarchingWake):
         return model
     return RelaxationWake(**{field.name: getattr(model, field.name) for field in fields(_Wake)})

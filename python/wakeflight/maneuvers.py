@@ -7,6 +7,7 @@ A file holds a name, a duration in revolutions or seconds, and for each stick th
 
 from __future__ import annotations
 
+import itertools
 import math
 import tomllib
 from collections.abc import Sequence
@@ -100,7 +101,7 @@ class Maneuver:
         return rates
 
     def scaled_to(self, travel_in: Sequence[float]) -> Maneuver:
-        """The same manoeuvre in parts of the travel: inches of each stick times its travel over `travel_in` of this one.
+        """The same manoeuvre in parts of the travel: inches times the new travel over the own `travel_in`.
 
         travel_in: travel of the four sticks of the other aircraft (4,) [in].
         """
@@ -114,7 +115,7 @@ class Maneuver:
         return replace(self, corners_of=scaled)
 
     def check_span(self, travel_in: Sequence[float]) -> None:
-        """Refuse a user's manoeuvre that cannot fit between the stops whatever the trim; travel_in (4,) [in]."""
+        """Refuse a user's manoeuvre that fits between the stops for no trim; travel_in (4,) [in]."""
         for stick, corners in self.corners_of:
             inches = [value for _, value in corners]
             span, travel = max(inches) - min(inches), float(travel_in[STICKS.index(stick)])
@@ -129,9 +130,9 @@ class Maneuver:
         shipped: bool | None = None,
         rate_limit_in: Sequence[float] | None = None,
     ) -> list[str]:
-        """Warnings about sticks beyond their travel or faster than their limit; a user's manoeuvre beyond travel is refused.
+        """Warnings about sticks beyond travel or rate limit; a user's manoeuvre beyond travel is refused.
 
-        trim_in, travel_in (4,) [in]: trim sticks and travel. shipped: treat as published; None is this manoeuvre's own.
+        trim_in, travel_in (4,) [in]: trim sticks and travel. shipped: as published; None is its own.
         rate_limit_in (4,) [in/s]: None is the full travel in one second.
         """
         warnings = []
@@ -142,25 +143,21 @@ class Maneuver:
             trim, travel, limit = float(trim_in[index]), float(travel_in[index]), float(limits[index])
             beyond, time, inches = max((max(-(trim + x), trim + x - travel), t, x) for t, x in corners)
             if beyond > 1e-9:
-                reached = (
-                    f"{trim + inches:.3f} in at {time:.4g} s, {beyond:.3f} in beyond its travel of {travel:.4g} in"
-                )
+                reached = f"{trim + inches:.3f} in at {time:.4g} s, {beyond:.3f} in beyond its travel"
                 if not shipped:
-                    allowed = f"from a trim of {trim:.3f} in reaches {reached}; must stay between 0 and {travel:.4g} in"
+                    allowed = f"from {trim:.3f} in reaches {reached}; must stay between 0 and {travel:.4g} in"
                     raise InputError.of(f"{self.name}: {stick}", f"{inches:g} in", allowed)
                 warnings.append(f"{self.name}: {stick} stick reaches {reached}; flown as published")
             fastest = max((abs(slope) for slope in _slopes(corners)), default=0.0)
             if fastest > limit * (1.0 + 1e-9):
-                warnings.append(
-                    f"{self.name}: {stick} moves at {fastest:.1f} in/s, beyond {limit:.4g} in/s; flown as given"
-                )
+                warnings.append(f"{self.name}: {stick} moves at {fastest:.1f} in/s, beyond {limit:.4g} in/s; flown so")
         return warnings
 
 
 def arrested_descent(start: Any = None) -> Maneuver:
     """Arrested descent [ribera2004]: collective up by 3.7 in and back, 12 revolutions.
 
-    start: begin of the first ramp as text with a unit (`"2 s"`); None is the shipped file's 0.4654 s, two revolutions.
+    start: begin of the first ramp (`"2 s"`); None is the shipped file's 0.4654 s, two revolutions.
     """
     maneuver = _shipped("arrested-descent")
     if start is None:
@@ -277,11 +274,11 @@ def _check_corners(stick: str, corners: Sequence[Corner]) -> None:
         raise InputError.of(stick, f"{corners[0][0]:g} s", "must start at 0 s or later")
     if corners[0][1] != 0.0:
         raise InputError.of(stick, f"{corners[0][1]:g} in", "must start from trim, 0 in")
-    for (before, _), (after, _) in zip(corners, corners[1:], strict=False):
+    for (before, _), (after, _) in itertools.pairwise(corners):
         if not after > before:
             raise InputError.of(stick, f"{before:g} s, {after:g} s", "times must ascend strictly")
 
 
 def _slopes(corners: Sequence[Corner]) -> list[float]:
     """Slopes of the pieces between corners [in/s]."""
-    return [(b[1] - a[1]) / (b[0] - a[0]) for a, b in zip(corners, corners[1:], strict=False)]
+    return [(b[1] - a[1]) / (b[0] - a[0]) for a, b in itertools.pairwise(corners)]

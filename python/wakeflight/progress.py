@@ -10,7 +10,7 @@ from typing import Any, TextIO
 
 
 class Progress:
-    """What a verb is told to report to: `phase(name, total)`, then `advance(n, text)`; called with text, a remark.
+    """Where a verb reports: `phase(name, total)`, then `advance(n, text)`; called with text, a remark.
 
     On a terminal one bar per phase with time left, elsewhere at most ten lines per phase.
     """

@@ -63,7 +63,7 @@ EXAMPLES = {
 
 
 def factor(unit: str) -> tuple[float, tuple[int, ...]] | None:
-    """SI factor of a unit such as `slug ft2`, `deg/in` and its powers of kg, m, s, rad; None if not known here."""
+    """SI factor of a unit such as `slug ft2`, and its powers of kg, m, s, rad; None if not known here."""
     total, powers, position = 1.0, [0, 0, 0, 0], 0
     text = unit.strip() or "1"
     while position < len(text):
@@ -79,7 +79,7 @@ def factor(unit: str) -> tuple[float, tuple[int, ...]] | None:
 
 
 def convert(value: float, unit: str, si_unit: str) -> float:
-    """`value` in `unit` as a number in `si_unit`; ValueError where the dimensions differ or the unit is unknown."""
+    """`value` in `unit` as a number in `si_unit`; ValueError where dimensions differ or a unit is unknown."""
     known, wanted = factor(unit), factor(si_unit)
     if known is not None and wanted is not None:
         if known[1] != wanted[1]:
@@ -118,7 +118,7 @@ def quantity(value: Any, si_unit: str, field: str) -> float:
 
 
 def mass_of_weight(value: Any, field: str = "weight") -> float:
-    """Mass [kg] of a weight given as force (`lbf`, `N`) or as mass (`lb`, `kg`); weight = mass x 9.80665 m/s2."""
+    """Mass [kg] of a weight given as force (`lbf`, `N`) or mass (`lb`, `kg`), standard gravity between."""
     for si_unit, scale in (("N", 1.0 / STANDARD_GRAVITY), ("kg", 1.0)):
         try:
             return quantity(value, si_unit, field) * scale

@@ -3,6 +3,7 @@
 
 import json
 import math
+import pickle
 import shutil
 from importlib import resources
 from pathlib import Path
@@ -77,12 +78,12 @@ def test_the_gross_mass_is_the_conditions():
 
 
 def test_gross_inertia_loses_the_blades_at_the_hub():
-    # GenHel's gross inertia of 16 000 lb comes back from its blade-less set within the 5 % its sources agree to
+    # two published sets of the same aircraft, with and without blades, agree within 5 %
     base = load_aircraft("uh60a").core_data()["mass"]["inertia"]
     other = load_aircraft("uh60a", loading="cr166309").core_data()["mass"]["inertia"]
     assert other[:3] == pytest.approx(base[:3], rel=0.05)
-    # computed independently for the BO-105: 2200 kg, four blades of 28.716922 kg; the table, which begins at the
-    # clamp to one figure more, has 28.717068 kg: 5e-6 of what is taken out
+    # computed independently for the BO-105 with four blades of 28.716922 kg; the table, which begins at
+    # the clamp to one figure more, has 28.717068 kg: 5e-6 of what is taken out
     bo105 = load_aircraft(BO105 / "bo105.toml").core_data()["mass"]["inertia"]
     assert bo105 == pytest.approx([1167.5331, 4706.7568, 4098.2237, 645.64452], rel=2e-6)
 
@@ -95,6 +96,13 @@ def test_an_aircraft_does_not_change():
         aircraft.rotor.radius = 1.0
     aircraft.core_data()["rotor"]["blade"]["radius"] = 1.0
     assert aircraft.core_data()["rotor"]["blade"]["radius"] == pytest.approx(8.177784)
+
+
+def test_an_aircraft_can_be_sent_to_another_process():
+    aircraft = load_aircraft("uh60a", loading="tm85890")
+    copy = pickle.loads(pickle.dumps(aircraft))
+    assert copy.core_data() == aircraft.core_data()
+    assert copy.sources() == aircraft.sources()
 
 
 def test_every_number_keeps_its_source_and_confidence():

@@ -57,7 +57,7 @@ def _validated(path: Path) -> AircraftFile:
     for key, source in spec.sources.items():
         for reference in source.references:
             if reference not in known_keys():
-                allowed = "not in the package's references.bib; leave references out and describe the source in text"
+                allowed = "not in references.bib; leave references out and describe the source in text"
                 raise InputError.of(f"sources.{key}.references", reference, allowed, file=path)
     return spec
 

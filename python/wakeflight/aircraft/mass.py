@@ -17,7 +17,7 @@ def blade_mass(structure: dict[str, list[float]]) -> float:
 def airframe_inertia(
     gross: Sequence[float], gross_mass: float, blades_mass: float, hub: Sequence[float]
 ) -> list[float]:
-    """Ixx, Iyy, Izz, Ixz [kg m2] of the airframe about its own centre of gravity, from those of the gross aircraft.
+    """Ixx, Iyy, Izz, Ixz [kg m2] of the airframe about its own centre of gravity, from the gross ones.
 
     The blades are taken out as a point mass at the hub. gross: about the gross centre of gravity; hub: its
     position from there [m], body axes. Ixz is the product of inertia, positive as the integral of x z dm.

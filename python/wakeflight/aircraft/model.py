@@ -35,7 +35,7 @@ class SourceRow(NamedTuple):
 
 
 class Settings(NamedTuple):
-    """Discretisation: blade modes kept, finite elements, azimuth step [rad], pitch the modes are taken at [rad]."""
+    """Discretisation: blade modes, finite elements, azimuth step [rad], pitch of the mode problem [rad]."""
 
     n_modes: int
     n_elements: int
@@ -47,6 +47,13 @@ class Aircraft:
     """An aircraft with one loading; make it with `load_aircraft`."""
 
     __slots__ = ("_discretisation", "_loading", "_loading_name", "_parts", "_path", "_spec")
+
+    _spec: AircraftFile
+    _path: Path
+    _loading: Loading
+    _loading_name: str | None
+    _parts: dict[str, Any]
+    _discretisation: Settings
 
     def __init__(self, spec: AircraftFile, path: Path, loading: str | None = None) -> None:
         """Read and check every table; choose the loading.
@@ -73,6 +80,10 @@ class Aircraft:
     def __setattr__(self, name: str, value: object) -> None:
         """Refuse: an aircraft does not change."""
         raise AttributeError(f"an Aircraft is immutable: {name} cannot be set")
+
+    def __reduce__(self) -> tuple[type[Aircraft], tuple[AircraftFile, Path, str | None]]:
+        """How a copy is made: from the file's content, checked again."""
+        return Aircraft, (self._spec, self._path, self._loading_name)
 
     def __repr__(self) -> str:
         """Name and loading."""
@@ -143,13 +154,15 @@ class Aircraft:
     @property
     def stick_travel_in(self) -> tuple[float, float, float, float]:
         """Travel of lateral, longitudinal, collective, pedal [in]."""
-        inch = 0.0254
-        return tuple(each / inch for each in self._spec.rigging.stick_travel)
+        lateral, longitudinal, collective, pedal = (each / 0.0254 for each in self._spec.rigging.stick_travel)
+        return lateral, longitudinal, collective, pedal
 
     @property
     def stick_rate_limit_in(self) -> tuple[float, float, float, float]:
         """Travel over the full travel time [in/s], beyond which a manoeuvre is warned of."""
-        return tuple(each / float(self._spec.rigging.full_travel_time) for each in self.stick_travel_in)
+        time = float(self._spec.rigging.full_travel_time)
+        lateral, longitudinal, collective, pedal = (each / time for each in self.stick_travel_in)
+        return lateral, longitudinal, collective, pedal
 
     @property
     def references(self) -> tuple[str, ...]:
@@ -159,7 +172,7 @@ class Aircraft:
     def default(self, name: str, condition: str | None = None) -> float:
         """Default of a condition's `speed` [m/s], `flight_path` [rad], `altitude` [m] or `gross_mass` [kg].
 
-        condition: name of an alternative condition; what it does not give is that of the loading, then `[condition]`.
+        condition: an alternative condition; the rest is that of the loading, then of `[condition]`.
         """
         if condition is not None and condition not in self._spec.conditions:
             allowed = f"allowed: {', '.join(self.conditions) or 'none, the file has no named condition'}"
@@ -178,9 +191,10 @@ class Aircraft:
         return condition_for(self)
 
     def core_data(self, condition: FlightCondition | None = None) -> dict[str, Any]:
-        """The aircraft as the physics core reads it: plain lists, SI, radians, positions from the nominal centre of gravity.
+        """The aircraft as the physics core reads it: plain lists, SI, radians, body axes.
 
-        condition: gives the gross mass; None is the aircraft's own.
+        Positions are from the nominal gross centre of gravity. condition: gives the gross mass; None is the
+        aircraft's own.
         """
         gross_mass = condition.gross_mass if condition is not None else None
         if gross_mass is None:
@@ -193,7 +207,7 @@ class Aircraft:
         return copy.deepcopy(assembled(self._spec, self._parts, self._loading, gross_mass))
 
     def sources(self) -> list[SourceRow]:
-        """Every number and table of the file with its published value, sources and confidence, in file order."""
+        """Every number and table of the file with its published value, sources and confidence."""
         return list(_rows(self._spec, ""))
 
 

@@ -13,7 +13,7 @@ from pydantic import BeforeValidator, ValidationInfo
 from ..units import STANDARD_GRAVITY, convert, shown
 
 CONFIDENCES = ("A", "B", "C", "A/B", "A/C", "B/C", "A/B/C")
-"""A read in a published or stored source, B recalled, C estimated or computed; two letters where parts differ."""
+"""A read in a source, B recalled, C estimated or computed; several letters where parts differ."""
 
 _KEYS = {"value", "unit", "source", "confidence", "note"}
 
@@ -40,6 +40,10 @@ class Number(float):
         number.provenance = provenance
         return number
 
+    def __getnewargs__(self) -> tuple[float, Provenance]:
+        """Arguments a copy is made with."""
+        return float(self), self.provenance
+
 
 class Numbers(tuple):
     """Several numbers in SI and radians (nested tuples for a matrix); `.provenance` is common to all."""
@@ -51,6 +55,10 @@ class Numbers(tuple):
         numbers = super().__new__(cls, si)
         numbers.provenance = provenance
         return numbers
+
+    def __getnewargs__(self) -> tuple[tuple, Provenance]:
+        """Arguments a copy is made with."""
+        return tuple(self), self.provenance
 
 
 def provenance_of(entry: Any, info: ValidationInfo, keys: set[str], allowed: str) -> Provenance:
@@ -149,7 +157,7 @@ Noted = Annotated[Provenance, BeforeValidator(_noted)]
 def vector(
     si_unit: str | tuple[str, ...], length: int, low: float = -math.inf, high: float = math.inf, rows: int = 0
 ) -> Any:
-    """Type of `length` numbers (`rows` of them for a matrix); `si_unit` may differ by entry, then `unit` is a list's text."""
+    """Type of `length` numbers, or `rows` rows of them; units may differ by entry (`kt, kt, deg`)."""
     units = (si_unit,) * length if isinstance(si_unit, str) else si_unit
     readers = [_reader(unit, low, high, None) for unit in units]
     shape = f"{rows} rows of {length} numbers" if rows else f"{length} numbers"

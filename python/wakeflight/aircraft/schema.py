@@ -51,7 +51,7 @@ class Condition(Group):
 
 
 class Inertia(Group):
-    """Moments of inertia; `of` says whether blades are left out (`airframe`) or included as masses at the hub (`gross`)."""
+    """Moments of inertia, blades left out (`of` = `airframe`) or included as masses at the hub (`gross`)."""
 
     of: Literal["airframe", "gross"]
     ixx: scalar("kg m2", above=0.0, high=1e7)
@@ -99,7 +99,7 @@ class Airfoil(Group):
 
 
 class LagDamper(Group):
-    """Hydraulic lag damper: geometry, force against rate, and a hinge spring that is off unless `use_spring`."""
+    """Hydraulic lag damper: geometry, force against rate, hinge spring where `use_spring` is true."""
 
     a: Station
     b: Station

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from dataclasses import dataclass
 from pathlib import Path
@@ -49,7 +50,7 @@ class TableFile:
         return InputError.of(column, value, allowed, file=self.path)
 
     def column(self, base: str, si_unit: str, radius: float | None = None) -> list[float]:
-        """Column `base` in `si_unit`: the header is `base` and a suffix of that dimension (`_R`: times `radius`)."""
+        """Column `base` in `si_unit`; its header has a suffix of that dimension (`_R`: times `radius`)."""
         if si_unit == "1" and base in self.columns:
             return list(self.columns[base])
         found: list[tuple[str, list[float]]] = []
@@ -139,7 +140,7 @@ Table = Annotated[TableFile, BeforeValidator(_validate)]
 
 def ascending(table: TableFile, name: str, values: list[float]) -> None:
     """Refuse a column that does not ascend strictly."""
-    for before, after in zip(values, values[1:], strict=False):
+    for before, after in itertools.pairwise(values):
         if not after > before:
             raise table.error(name, f"{before:g}, {after:g}", "must ascend strictly")
 
@@ -171,7 +172,7 @@ def grid(table: TableFile, x: str, y: str, value: str, unit: str) -> dict[str, l
 
 
 def by_mach(table: TableFile) -> dict[str, list]:
-    """Section coefficient {x, y, values}: rows angle of attack [rad] over +-180 deg, columns `M0.3` over 0 to 0.9 or more."""
+    """Section coefficient {x, y, values}: alpha [rad] over +-180 deg, Mach over 0 to 0.9 or more."""
     alpha = table.column("alpha", "rad")
     ascending(table, "alpha", alpha)
     covering(table, "alpha", alpha, -math.pi, math.pi, "-180 to 180 deg")
