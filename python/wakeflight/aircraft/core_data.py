@@ -24,7 +24,7 @@ def fixed_parts(spec: AircraftFile) -> dict[str, Any]:
         "lag_damper": _lag_damper(spec.rotor),
         "fuselage": _fuselage(spec),
         "stabilator": _surface(spec.stabilator, "alpha") if spec.stabilator else None,
-        "stabilator_schedule": _schedule(spec.stabilator) if spec.stabilator else None,
+        "stabilator_schedule": _schedule(spec.stabilator, spec.rigging.stick_travel[2]) if spec.stabilator else None,
         "fin": _surface(spec.fin, "beta") if spec.fin else None,
         "tail_rotor": _tail_rotor(spec),
         "interference": _interference(spec),
@@ -207,7 +207,7 @@ def _surface(surface: Any, angle: str) -> dict[str, Any]:
     return {"area": float(surface.area), "incidence": incidence, **curves}
 
 
-def _schedule(stabilator: Stabilator) -> dict[str, Any] | None:
+def _schedule(stabilator: Stabilator, collective_travel: float) -> dict[str, Any] | None:
     rule = stabilator.schedule
     if rule is None:
         return None
@@ -222,6 +222,7 @@ def _schedule(stabilator: Stabilator) -> dict[str, Any] | None:
         "q_gain": float(rule.q_gain),
         "limits": list(stabilator.incidence_limits),
         "rate_limit": float(rule.rate_limit),
+        "collective_travel": float(collective_travel),
     }
 
 

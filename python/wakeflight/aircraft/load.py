@@ -45,7 +45,7 @@ def _validated(path: Path) -> AircraftFile:
         with path.open("rb") as stream:
             data = tomllib.load(stream)
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as reason:
-        raise InputError.of("aircraft", str(path), f"not readable as TOML: {reason}") from reason
+        raise InputError(f"{path}: not readable as TOML: {reason}") from reason
     except OSError as reason:
         raise InputError.of("aircraft", str(path), f"cannot be read: {reason.strerror}") from reason
     sources = data.get("sources")
