@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-N_STEPS = 720
+N_STEPS = 360
 
 
 def multipliers(start):
