@@ -50,7 +50,8 @@ fn airfoil() -> Airfoil {
         let values = x.iter().map(|&a| vec![f(a), f(a)]).collect();
         Grid { x, y: vec![0.0, 1.0], values }
     };
-    let tables = AirfoilTables { cl: grid(f64::sin), cd: grid(|_| 0.01), cm: grid(|_| 0.0), cd_increment: 0.0 };
+    let tables =
+        AirfoilTables { cl: grid(f64::sin), cd: grid(|_| 0.01), cm: grid(|_| 0.0), cd_increment: 0.0 };
     Airfoil::new(&tables).unwrap()
 }
 
@@ -59,7 +60,13 @@ fn modal_motion(q: &[f64; N], q_dot: &[f64; N], q_ddot: &[f64; N]) -> ModalMotio
     ModalMotion { q: wide(q), q_dot: wide(q_dot), q_ddot: wide(q_ddot) }
 }
 
-fn vacuum_loads(blade: &Blade, hub: &HubMotion<f64>, psi: f64, m: &ModalMotion<f64>, pitch: &PitchMotion<f64>) -> BladeLoads<f64> {
+fn vacuum_loads(
+    blade: &Blade,
+    hub: &HubMotion<f64>,
+    psi: f64,
+    m: &ModalMotion<f64>,
+    pitch: &PitchMotion<f64>,
+) -> BladeLoads<f64> {
     let airfoil = airfoil();
     let air = Air { density: 1.0, speed_of_sound: 340.0 };
     let environment = BladeEnvironment { airfoil: &airfoil, air, rotor_speed: OMEGA };
@@ -160,8 +167,13 @@ fn strain_force_is_the_gradient_of_the_strain_energy() {
             let (mut up, mut down) = (q, q);
             up[i] += h;
             down[i] -= h;
-            let difference = (potential(&blade, &up, theta).0 - potential(&blade, &down, theta).0) / (2.0 * h);
-            assert!((gradient[i] - difference).abs() < 1e-6 * scale, "mode {i}: {} against {difference}", gradient[i]);
+            let difference =
+                (potential(&blade, &up, theta).0 - potential(&blade, &down, theta).0) / (2.0 * h);
+            assert!(
+                (gradient[i] - difference).abs() < 1e-6 * scale,
+                "mode {i}: {} against {difference}",
+                gradient[i]
+            );
         }
     }
 }
@@ -190,7 +202,8 @@ fn inertia_and_hub_loads_are_those_of_particles() {
             })
             .collect()
     };
-    let path = |t: f64| -> [f64; N] { std::array::from_fn(|i| q[i] + q_dot[i] * t + 0.5 * q_ddot[i] * t * t) };
+    let path =
+        |t: f64| -> [f64; N] { std::array::from_fn(|i| q[i] + q_dot[i] * t + 0.5 * q_ddot[i] * t * t) };
     let h = 2e-4;
     let at: Vec<Vec<(V, V, f64)>> =
         [-2.0, -1.0, 0.0, 1.0, 2.0].iter().map(|k| place(k * h, &path(k * h))).collect();
@@ -277,7 +290,8 @@ fn frequency_error(n_gauss: usize) -> f64 {
     };
     let by_q = ModalMotion { q: seeded(), q_dot: zero, q_ddot: zero };
     let by_acceleration = ModalMotion { q: zero, q_dot: zero, q_ddot: seeded() };
-    let loads = |m: &ModalMotion<D>| blade.loads(&environment, &hub, c(0.0), m, &pitch, &BladeInflow::Vacuum).modal;
+    let loads =
+        |m: &ModalMotion<D>| blade.loads(&environment, &hub, c(0.0), m, &pitch, &BladeInflow::Vacuum).modal;
     let (stiffness, mass) = (loads(&by_q), loads(&by_acceleration));
     let mut worst = 0.0f64;
     for i in 0..N {
@@ -307,7 +321,9 @@ fn the_energy_of_a_blade_turning_steadily_in_vacuum_is_conserved() {
     let blade = blade_with(&smooth(), 8);
     let pitch = PitchMotion { theta: 0.3, theta_dot: 0.0, theta_ddot: 0.0 };
     let rate = |q: &[f64; N], q_dot: &[f64; N]| -> [f64; N] {
-        let f = |q_ddot: &[f64; N]| vacuum_loads(&blade, &still_hub(), 0.0, &modal_motion(q, q_dot, q_ddot), &pitch).modal;
+        let f = |q_ddot: &[f64; N]| {
+            vacuum_loads(&blade, &still_hub(), 0.0, &modal_motion(q, q_dot, q_ddot), &pitch).modal
+        };
         let bias = f(&[0.0; N]);
         let mut mass = nalgebra::SMatrix::<f64, N, N>::zeros();
         for j in 0..N {
@@ -344,8 +360,14 @@ fn the_energy_of_a_blade_turning_steadily_in_vacuum_is_conserved() {
     let along = |a: &[f64; N], b: &[f64; N], k: f64| -> [f64; N] { std::array::from_fn(|i| a[i] + k * b[i]) };
     for _ in 0..steps {
         let k1 = (q_dot, rate(&q, &q_dot));
-        let k2 = (along(&q_dot, &k1.1, dt / 2.0), rate(&along(&q, &k1.0, dt / 2.0), &along(&q_dot, &k1.1, dt / 2.0)));
-        let k3 = (along(&q_dot, &k2.1, dt / 2.0), rate(&along(&q, &k2.0, dt / 2.0), &along(&q_dot, &k2.1, dt / 2.0)));
+        let k2 = (
+            along(&q_dot, &k1.1, dt / 2.0),
+            rate(&along(&q, &k1.0, dt / 2.0), &along(&q_dot, &k1.1, dt / 2.0)),
+        );
+        let k3 = (
+            along(&q_dot, &k2.1, dt / 2.0),
+            rate(&along(&q, &k2.0, dt / 2.0), &along(&q_dot, &k2.1, dt / 2.0)),
+        );
         let k4 = (along(&q_dot, &k3.1, dt), rate(&along(&q, &k3.0, dt), &along(&q_dot, &k3.1, dt)));
         for i in 0..N {
             q[i] += dt / 6.0 * (k1.0[i] + 2.0 * k2.0[i] + 2.0 * k3.0[i] + k4.0[i]);
@@ -354,7 +376,10 @@ fn the_energy_of_a_blade_turning_steadily_in_vacuum_is_conserved() {
         swing = swing.max(q_dot.iter().map(|x| 0.5 * x * x).sum());
     }
     let (end, _) = integral(&q, &q_dot);
-    println!("Jacobi's integral changes by {:.2e} J, largest relative kinetic energy {swing:.3e} J", end - start);
+    println!(
+        "Jacobi's integral changes by {:.2e} J, largest relative kinetic energy {swing:.3e} J",
+        end - start
+    );
     assert!(swing > 100.0);
     assert!((end - start).abs() < 1e-6 * swing, "{start} to {end}, swing {swing}");
 }
