@@ -33,11 +33,11 @@ pub fn toml(name: &str, section: &str, key: &str) -> Vec<f64> {
     for line in text.lines().map(|line| line.split('#').next().unwrap().trim()) {
         if line.starts_with('[') {
             inside = line == format!("[{section}]");
-        } else if let (true, Some((found, value))) = (inside, line.split_once('=')) {
-            if found.trim() == key {
-                let list = value.trim().trim_matches(['[', ']']);
-                return list.split(',').map(|v| v.trim().parse().unwrap()).collect();
-            }
+        } else if let (true, Some((found, value))) = (inside, line.split_once('='))
+            && found.trim() == key
+        {
+            let list = value.trim().trim_matches(['[', ']']);
+            return list.split(',').map(|v| v.trim().parse().unwrap()).collect();
         }
     }
     panic!("{name}: no [{section}] {key}");
