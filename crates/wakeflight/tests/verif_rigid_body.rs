@@ -158,7 +158,7 @@ fn verif_coordinated_turns_need_only_lift_along_the_body_z_axis() {
     for (phi, q, r, n) in [
         (15.0f64, 0.01652495, 0.06167196, 1.03527618),
         (30.0, 0.06878614, 0.11914109, 1.15470054),
-        (45.0, 0.16849094, 0.16849094, 1.41421356),
+        (45.0, 0.16849094, 0.16849094, std::f64::consts::SQRT_2),
         (60.0, 0.35742326, 0.20635841, 2.00000000),
     ] {
         let down = rot_ib(quaternion(phi.to_radians(), 0.0, 0.0)).transposed();
