@@ -1,4 +1,5 @@
 //! Nanoseconds per evaluation of the segment sum: 576 markers of four helices at their own segments, one thread.
+use std::f64::consts::FRAC_PI_2;
 use std::hint::black_box;
 use std::time::Instant;
 use wakeflight::vortex::core::{Core, CoreDistance};
@@ -11,7 +12,7 @@ fn main() {
     for i_blade in 0..4 {
         let nodes: Vec<[f64; 3]> = (0..145)
             .map(|k| {
-                let psi = f64::from(i_blade) * 1.570_796 - f64::from(k) * 0.174_533;
+                let psi = f64::from(i_blade) * FRAC_PI_2 - f64::from(k) * FRAC_PI_2 / 9.0;
                 [psi.cos(), psi.sin(), -0.01 * f64::from(k)]
             })
             .collect();
