@@ -76,7 +76,7 @@ class Progress:
         finished = self._total is not None and self._done >= self._total * (1.0 - 1e-9)
         if now < self._next_line and not finished:
             return
-        line = f"{self._name}: {self._done:g}"
+        line = f"{self._name}: {self._done:.4g}"
         if self._total:
             left = (now - self._start) * (self._total / self._done - 1.0) if self._done > 0.0 else 0.0
             line += f" of {self._total:g}, {max(left, 0.0):.0f} s left"
