@@ -355,7 +355,7 @@ fn the_energy_of_a_blade_turning_steadily_in_vacuum_is_conserved() {
     let mut q = coordinates(&blade, [-0.6, 0.5, 0.1, 0.02, 0.03]);
     let mut q_dot = [0.0; N];
     let (start, _) = integral(&q, &q_dot);
-    let (steps, mut swing) = (4000, 0.0f64);
+    let (steps, mut swing) = (1200, 0.0f64);
     let dt = 2.0 * PI / OMEGA / f64::from(steps);
     let along = |a: &[f64; N], b: &[f64; N], k: f64| -> [f64; N] { std::array::from_fn(|i| a[i] + k * b[i]) };
     for _ in 0..steps {
