@@ -1,8 +1,5 @@
 //! Inertia and gravity loads of a blade on a hub that moves and turns at will, against Lagrange's equations and the
 //! rates of momentum of an independent kinetic energy.
-//!
-//! A section is a flat body of points r + xi c + eta n, so that T = 1/2 m |r'|^2 + S r'.c' + 1/2 J_n |c'|^2 + 1/2 J_c |n'|^2
-//! with the time derivatives taken in inertial axes.
 
 mod mechanics_support;
 
@@ -33,22 +30,8 @@ fn pitch<S: Real>(t: S) -> S {
     (t * OMEGA + 0.5).sin_cos().0 * 0.15 + 0.25
 }
 
-/// Place of the elastic axis, chord and normal in inertial axes, from the shapes by plain rotations.
 fn section<S: Real>(blade: &Blade, p: &StructuralPoint, q: &[S; N], t: S) -> [[S; 3]; 3] {
-    let sum = |shape: &[f64]| (0..N).fold(S::zero(), |a, i| a + q[i] * shape[i]);
-    let mut shortening = sum(&p.shapes.shortening_twist);
-    for i in 0..N {
-        shortening += q[i] * sum(&p.shapes.shortening[i]) * 0.5;
-    }
-    let flap = sum(&p.shapes.w[1]).asin();
-    let lead = (sum(&p.shapes.v[1]) / flap.sin_cos().1).asin();
-    let theta = pitch(t) + p.twist + sum(&p.shapes.theta);
-    let carrier =
-        product(&product(&hub_attitude(t), &turn(2, t * OMEGA)), &turn(1, S::cst(-blade.precone)));
-    let place = [-shortening + p.shapes.x, sum(&p.shapes.v[0]), sum(&p.shapes.w[0])];
-    let triad = product(&carrier, &product(&product(&turn(2, lead), &turn(1, -flap)), &turn(0, theta)));
-    let column = |j: usize| [triad[0][j], triad[1][j], triad[2][j]];
-    [add(hub_place(t), times(&carrier, place)), column(1), column(2)]
+    section_place(blade, p, q, pitch(t), t * OMEGA, hub_place(t), &hub_attitude(t))
 }
 
 /// Kinetic energy, potential of gravity, momentum, and moment of momentum about the hub.
@@ -66,23 +49,12 @@ fn motion(blade: &Blade, g: f64, q: &[f64; N], q_dot: &[f64; N], t: f64) -> Moti
     let mut sum = Motion { kinetic: 0.0, gravity: 0.0, momentum: [0.0; 3], moment: [0.0; 3] };
     for p in &blade.structure {
         let at = section(blade, p, &variables, time);
-        let value = at.map(|v| v.map(|x| x.re));
-        let [r_dot, c_dot, n_dot] = at.map(|v| v.map(|x| x.eps[0]));
-        let [r, c, n] = value;
-        let (m, s, [_, j_c, j_n]) = (p.mass, p.first_moment, p.inertia);
-        sum.kinetic += 0.5 * (m * dot(r_dot, r_dot) + j_n * dot(c_dot, c_dot) + j_c * dot(n_dot, n_dot))
-            + s * dot(r_dot, c_dot);
-        sum.gravity += g * (m * r[2] + s * c[2]);
-        let arm: [f64; 3] = std::array::from_fn(|k| r[k] - hub[k]);
-        let scaled = |v: [f64; 3], k: f64| v.map(|x| k * x);
-        sum.momentum = add(sum.momentum, add(scaled(r_dot, m), scaled(c_dot, s)));
-        let parts = [
-            scaled(cross(arm, r_dot), m),
-            scaled(add(cross(arm, c_dot), cross(c, r_dot)), s),
-            scaled(cross(c, c_dot), j_n),
-            scaled(cross(n, n_dot), j_c),
-        ];
-        sum.moment = parts.into_iter().fold(sum.moment, add);
+        let [r, c, _] = at.map(|v| v.map(|x| x.re));
+        let found = section_momentum(p, hub, at);
+        sum.kinetic += found.kinetic;
+        sum.gravity += g * (p.mass * r[2] + p.first_moment * c[2]);
+        sum.momentum = add(sum.momentum, found.momentum);
+        sum.moment = add(sum.moment, found.moment);
     }
     sum
 }

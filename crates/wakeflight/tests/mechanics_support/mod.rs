@@ -16,11 +16,11 @@ use wakeflight::blade::MAX_MODES;
 use wakeflight::blade::aerodynamics::Air;
 use wakeflight::blade::kinematics::{ModalMotion, PitchMotion};
 use wakeflight::blade::loads::HubMotion;
-use wakeflight::blade::model::{Blade, Discretisation};
+use wakeflight::blade::model::{Blade, Discretisation, StructuralPoint};
 use wakeflight::blade::section::BladeProperties;
 use wakeflight::blade::strain::add_strain_gradient;
 use wakeflight::numerics::frames::Vec3;
-use wakeflight::numerics::scalar::Real;
+use wakeflight::numerics::scalar::{Dual, Real};
 use wakeflight::numerics::tables::Grid;
 use wakeflight::rotor::lag_damper::LagDamper;
 use wakeflight::rotor::swashplate::Rigging;
@@ -302,4 +302,64 @@ pub fn relative_error(found: &[f64], expected: &[f64]) -> f64 {
     assert!(found.len() == expected.len() && found.iter().chain(expected).all(|v| v.is_finite()));
     let scale = expected.iter().fold(0f64, |m, v| m.max(v.abs()));
     found.iter().zip(expected).fold(0f64, |m, (a, b)| m.max((a - b).abs())) / scale
+}
+
+pub fn scaled<S: Real>(v: [S; 3], k: f64) -> [S; 3] {
+    v.map(|x| x * k)
+}
+
+/// Elastic axis, chord and normal of a section in inertial axes, from the shapes by plain rotations; the columns of
+/// `hub_attitude` are the hub axes.
+pub fn section_place<S: Real>(
+    blade: &Blade,
+    p: &StructuralPoint,
+    q: &[S; 5],
+    control: S,
+    psi: S,
+    hub_place: [S; 3],
+    hub_attitude: &Matrix3<S>,
+) -> [[S; 3]; 3] {
+    let sum = |shape: &[f64]| (0..5).fold(S::zero(), |a, i| a + q[i] * shape[i]);
+    let mut shortening = sum(&p.shapes.shortening_twist);
+    for i in 0..5 {
+        shortening += q[i] * sum(&p.shapes.shortening[i]) * 0.5;
+    }
+    let flap = sum(&p.shapes.w[1]).asin();
+    let lead = (sum(&p.shapes.v[1]) / flap.sin_cos().1).asin();
+    let theta = control + p.twist + sum(&p.shapes.theta);
+    let carrier = product(&product(hub_attitude, &turn(2, psi)), &turn(1, S::cst(-blade.precone)));
+    let place = [-shortening + p.shapes.x, sum(&p.shapes.v[0]), sum(&p.shapes.w[0])];
+    let triad = product(&carrier, &product(&product(&turn(2, lead), &turn(1, -flap)), &turn(0, theta)));
+    let column = |j: usize| [triad[0][j], triad[1][j], triad[2][j]];
+    [add(hub_place, times(&carrier, place)), column(1), column(2)]
+}
+
+/// Kinetic energy, momentum, and moment of momentum about a point.
+#[derive(Clone, Copy, Default)]
+pub struct Momentum {
+    pub kinetic: f64,
+    pub momentum: [f64; 3],
+    pub moment: [f64; 3],
+}
+
+/// Of a section with place (axis, chord, normal) and rates in inertial axes, moment about `centre`.
+///
+/// A section is a flat body of points r + xi c + eta n, so that T = 1/2 m |r'|^2 + S r'.c' + 1/2 J_n |c'|^2 + 1/2 J_c |n'|^2.
+pub fn section_momentum(p: &StructuralPoint, centre: [f64; 3], place: [[Dual<1>; 3]; 3]) -> Momentum {
+    let [r, c, n] = place.map(|v| v.map(|x| x.re));
+    let [r_dot, c_dot, n_dot] = place.map(|v| v.map(|x| x.eps[0]));
+    let (m, s, [_, j_c, j_n]) = (p.mass, p.first_moment, p.inertia);
+    let arm = [r[0] - centre[0], r[1] - centre[1], r[2] - centre[2]];
+    let moments = [
+        scaled(cross(arm, r_dot), m),
+        scaled(add(cross(arm, c_dot), cross(c, r_dot)), s),
+        scaled(cross(c, c_dot), j_n),
+        scaled(cross(n, n_dot), j_c),
+    ];
+    Momentum {
+        kinetic: 0.5 * (m * dot(r_dot, r_dot) + j_n * dot(c_dot, c_dot) + j_c * dot(n_dot, n_dot))
+            + s * dot(r_dot, c_dot),
+        momentum: add(scaled(r_dot, m), scaled(c_dot, s)),
+        moment: moments.into_iter().fold([0.0; 3], add),
+    }
 }
