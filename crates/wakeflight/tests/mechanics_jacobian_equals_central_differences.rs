@@ -1,0 +1,105 @@
+//! The exact Jacobian equals central differences of the residual, and F is linear in y_dot.
+
+mod mechanics_support;
+
+use mechanics_support::beam_support::uh60a;
+use mechanics_support::*;
+use wakeflight::aircraft::model::{Aircraft, HeldInflow, Inputs};
+
+const STICK: [f64; 4] = [0.13, 0.14, 0.12, 0.06];
+
+fn residual(aircraft: &Aircraft, t: f64, y: &[f64], y_dot: &[f64], inputs: &Inputs) -> Vec<f64> {
+    let mut f = vec![0.0; y.len()];
+    aircraft.residual(t, y, y_dot, inputs, &mut f);
+    f
+}
+
+/// Central differences by steps h and h/2, extrapolated.
+fn difference(value: impl Fn(f64) -> Vec<f64>, h: f64) -> Vec<f64> {
+    let slope = |h: f64| -> Vec<f64> {
+        value(h).iter().zip(value(-h)).map(|(a, b)| (a - b) / (2.0 * h)).collect()
+    };
+    slope(h / 2.0).iter().zip(slope(h)).map(|(fine, coarse)| (4.0 * fine - coarse) / 3.0).collect()
+}
+
+/// Largest error of dF/dy and dF/dy_dot, every column over its largest entry.
+fn errors(aircraft: &Aircraft, inputs: &Inputs, seed: u64) -> [f64; 2] {
+    let (t, n) = (0.123, aircraft.layout.len());
+    let (y, y_dot) = random_state(aircraft, &mut Random::new(seed));
+    let mut worst = [0f64; 2];
+    for (which, (a, b)) in [(1.0, 0.0), (0.0, 1.0)].into_iter().enumerate() {
+        let mut exact = vec![f64::NAN; n * n];
+        aircraft.jacobian(t, &y, &y_dot, inputs, a, b, &mut exact);
+        for column in 0..n {
+            let at = |h: f64| {
+                let (mut y, mut y_dot) = (y.clone(), y_dot.clone());
+                y[column] += a * h;
+                y_dot[column] += b * h;
+                residual(aircraft, t, &y, &y_dot, inputs)
+            };
+            let size = if which == 0 { y[column].abs() } else { y_dot[column].abs() };
+            let h = if which == 0 { 1e-4 } else { 1e-2 } * size.max(0.1);
+            let expected = difference(at, h);
+            let found: Vec<f64> = (0..n).map(|row| exact[row * n + column]).collect();
+            let silent = expected.iter().chain(&found).all(|v| v.abs() < 1e-7);
+            // position enters no equation, nor does the tail rotor's inflow without air
+            let idle = (10..13).contains(&column)
+                || matches!(inputs.inflow, HeldInflow::Vacuum) && aircraft.layout.tail_inflow().contains(&column);
+            assert_eq!(silent, which == 0 && idle, "column {column}");
+            if !silent {
+                let e = relative_error(&found, &expected);
+                assert!(e < 1e-6, "d/d{} {column}: {e:.2e}", ["y", "y_dot"][which]);
+                worst[which] = worst[which].max(e);
+            }
+        }
+    }
+    worst
+}
+
+fn cases(smooth: bool) -> Vec<(Aircraft, Inputs, &'static str)> {
+    let airfoil =
+        if smooth { smooth_airfoil(5.7, 0.4, 0.01, -0.02) } else { data_files::airfoil("sc1095", 0.002) };
+    let data = aircraft_data(uh60a(), airfoil);
+    let (dynamic, held) = (build(&data, false, 9.80665), build(&data, true, 9.80665));
+    let mut random = Random::new(8);
+    let n = held.rotor.n_blades * held.rotor.blade.stations.len();
+    let inflow = (0..n).map(|_| 0.03 + 0.02 * random.next()).collect();
+    let mut moving = inputs(STICK, HeldInflow::Dynamic);
+    moving.stick_rate = [0.2, -0.1, 0.15, 0.05];
+    vec![
+        (dynamic, moving, "dynamic inflow, sticks moving"),
+        (held.clone(), inputs(STICK, HeldInflow::Stations { inflow, mean: 0.03 }), "held station inflow"),
+        (held, inputs(STICK, HeldInflow::Vacuum), "vacuum"),
+    ]
+}
+
+/// Section tables without kinks; the tables of fuselage, tail and damper are kinked, the states lie between kinks.
+#[test]
+fn jacobian_equals_central_differences() {
+    for (aircraft, inputs, name) in cases(true) {
+        for seed in [5, 6] {
+            let e = errors(&aircraft, &inputs, seed);
+            println!("{name}: dF/dy {:.1e}, dF/dy_dot {:.1e}", e[0], e[1]);
+        }
+    }
+}
+
+#[test]
+fn residual_is_linear_in_the_rates_of_the_state() {
+    for smooth in [true, false] {
+        for (aircraft, inputs, name) in cases(smooth) {
+            let (y, a) = random_state(&aircraft, &mut Random::new(9));
+            let (_, b) = random_state(&aircraft, &mut Random::new(10));
+            let f = |y_dot: &[f64]| residual(&aircraft, 0.4, &y, y_dot, &inputs);
+            let mixed: Vec<f64> = a.iter().zip(&b).map(|(a, b)| 3.0 * a - 2.0 * b).collect();
+            let expected: Vec<f64> = f(&a).iter().zip(f(&b)).map(|(a, b)| 3.0 * a - 2.0 * b).collect();
+            let mut found = f(&mixed);
+            // dynamic inflow is driven by the loads of the air, which feel no acceleration: linear as well
+            let e = relative_error(&found, &expected);
+            println!("{name}: {e:.1e}");
+            assert!(e < 1e-12, "{name}: {e:e}");
+            found[0] += 1.0;
+            assert!(relative_error(&found, &expected) > 1e-12);
+        }
+    }
+}
