@@ -152,7 +152,13 @@ impl Trimmed {
     }
 
     /// Adds the work of +(pi/16) rho |U| c^3 (omega t), which the air loads hold with the other sign.
-    fn take_pitch_rate_moment_off(&self, psi: f64, modal: &ModalMotion<P>, pitch: &PitchMotion<P>, rows: &mut [P]) {
+    fn take_pitch_rate_moment_off(
+        &self,
+        psi: f64,
+        modal: &ModalMotion<P>,
+        pitch: &PitchMotion<P>,
+        rows: &mut [P],
+    ) {
         let rotor = &self.aircraft.rotor;
         let (s, c) = psi.sin_cos();
         let forward = self.mu * rotor.tip_speed();
@@ -160,7 +166,11 @@ impl Trimmed {
         let spin = Vec3::cst([0.0, 0.0, OMEGA]);
         for station in &rotor.blade.stations {
             let g = &station.geometry;
-            let m = station.shapes.motion(N, modal, &PitchMotion { theta: pitch.theta + station.twist, ..*pitch });
+            let m = station.shapes.motion(
+                N,
+                modal,
+                &PitchMotion { theta: pitch.theta + station.twist, ..*pitch },
+            );
             let down = Vec3::cst([0.0, 0.0, self.lambda * rotor.tip_speed()]);
             let wind = -(velocity + spin.cross(m.position) + m.velocity + down);
             let rate = (spin + m.omega).dot(m.t);
@@ -176,9 +186,8 @@ impl Trimmed {
     /// Absolute values of the multipliers, ascending, with `n` Runge-Kutta steps.
     fn multipliers(&self, n: usize, damper: bool, pitch_rate_moment: bool) -> Vec<f64> {
         let h = TAU / OMEGA / n as f64;
-        let a: Vec<_> = (0..=2 * n)
-            .map(|k| self.matrix(PI * k as f64 / n as f64, damper, pitch_rate_moment))
-            .collect();
+        let a: Vec<_> =
+            (0..=2 * n).map(|k| self.matrix(PI * k as f64 / n as f64, damper, pitch_rate_moment)).collect();
         let mut y = SMatrix::<f64, 10, 10>::identity();
         for k in 0..n {
             let k1 = a[2 * k] * y;
@@ -202,7 +211,10 @@ fn floquet_multipliers_lie_inside_the_unit_circle() {
         println!("mu {mu}: lambda {:.4}, theta_0 {t0:.2}, theta_1c {tc:.2}, theta_1s {ts:.2} deg", t.lambda);
         let found = t.multipliers(400, true, true);
         let fine = t.multipliers(800, true, true);
-        println!("    multipliers {fine:.3?}, change by halving the step {:.1e}", relative_error(&found, &fine));
+        println!(
+            "    multipliers {fine:.3?}, change by halving the step {:.1e}",
+            relative_error(&found, &fine)
+        );
         // in forward flight the linear equations jump where a section passes a kink of its tables: first order in the step
         assert!(relative_error(&found, &fine) < 5e-3);
         assert!(fine.iter().all(|m| *m < 1.0), "{fine:?}");

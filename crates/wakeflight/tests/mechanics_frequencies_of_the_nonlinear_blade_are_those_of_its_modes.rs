@@ -19,13 +19,21 @@ type D = Dual<15>;
 /// Residual about rest: value, and derivatives by q, q_dot, q_ddot (columns 0..5, 5..10, 10..15).
 fn linearised(blade: &Blade) -> ([f64; N], [[f64; 15]; N]) {
     let variables = |first: usize| {
-        std::array::from_fn::<D, MAX_MODES, _>(|i| if i < N { D::variable(0.0, first + i) } else { D::zero() })
+        std::array::from_fn::<D, MAX_MODES, _>(
+            |i| if i < N { D::variable(0.0, first + i) } else { D::zero() },
+        )
     };
     let modal = ModalMotion { q: variables(0), q_dot: variables(5), q_ddot: variables(10) };
     let airfoil = smooth_airfoil(6.0, 0.0, 0.01, 0.0);
     let environment = BladeEnvironment { airfoil: &airfoil, air: AIR, rotor_speed: OMEGA };
-    let loads =
-        blade.loads(&environment, &hub_at_rest(), D::zero(), &modal, &still(REFERENCE_PITCH), &BladeInflow::Vacuum);
+    let loads = blade.loads(
+        &environment,
+        &hub_at_rest(),
+        D::zero(),
+        &modal,
+        &still(REFERENCE_PITCH),
+        &BladeInflow::Vacuum,
+    );
     let rows = &loads.modal[..N];
     (std::array::from_fn(|i| rows[i].re), std::array::from_fn(|i| rows[i].eps))
 }
@@ -56,7 +64,10 @@ fn convergence(properties: &BladeProperties, name: &str) -> Vec<[f64; 3]> {
     for n_gauss in [4, 6, 8, 12] {
         let blade = Blade::new(properties, OMEGA, 0.97, &discretisation(N, n_gauss)).unwrap();
         let e = errors(&blade);
-        println!("{name}, {n_gauss} points: frequency {:.1e}, mass {:.1e}, coupling {:.1e}", e[0], e[1], e[2]);
+        println!(
+            "{name}, {n_gauss} points: frequency {:.1e}, mass {:.1e}, coupling {:.1e}",
+            e[0], e[1], e[2]
+        );
         let (rest, _) = linearised(&blade);
         let angle: Vec<f64> = (0..N)
             .map(|i| rest[i] / blade.modes.frequency[i].powi(2) / per_radian(&blade, i))
@@ -83,7 +94,8 @@ fn with_everything() -> BladeProperties {
 /// (linear twist, no tension-twist coupling) nothing is left but the polynomial degree.
 #[test]
 fn frequencies_of_a_blade_without_kinks_converge_to_those_of_its_modes() {
-    for (mut properties, name) in [(uh60a(), "linear twist"), (with_everything(), "linear twist, everything")] {
+    for (mut properties, name) in [(uh60a(), "linear twist"), (with_everything(), "linear twist, everything")]
+    {
         properties.twist = Table { x: vec![0.0, properties.radius], y: vec![0.0, -0.3] };
         properties.ka_over_ktheta = 0.0;
         let found = convergence(&properties, name);

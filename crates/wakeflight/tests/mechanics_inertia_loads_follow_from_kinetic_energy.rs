@@ -86,10 +86,7 @@ fn errors(blade: &Blade, g: f64, path: &Path, t: f64) -> [f64; 3] {
     let into_hub = |v: [f64; 3]| times(&transposed(&turned), v);
     let rate = |t: f64| {
         let at = hub_attitude(D::variable(t, 0));
-        let m = product(
-            &transposed(&at.map(|row| row.map(|v| v.re))),
-            &at.map(|row| row.map(|v| v.eps[0])),
-        );
+        let m = product(&transposed(&at.map(|row| row.map(|v| v.re))), &at.map(|row| row.map(|v| v.eps[0])));
         [m[2][1], m[0][2], m[1][0]]
     };
     let velocity = |t: f64| hub_place(D::variable(t, 0)).map(|v| v.eps[0]);

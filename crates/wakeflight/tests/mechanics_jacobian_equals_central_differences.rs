@@ -16,9 +16,8 @@ fn residual(aircraft: &Aircraft, t: f64, y: &[f64], y_dot: &[f64], inputs: &Inpu
 
 /// Central differences by steps h and h/2, extrapolated.
 fn difference(value: impl Fn(f64) -> Vec<f64>, h: f64) -> Vec<f64> {
-    let slope = |h: f64| -> Vec<f64> {
-        value(h).iter().zip(value(-h)).map(|(a, b)| (a - b) / (2.0 * h)).collect()
-    };
+    let slope =
+        |h: f64| -> Vec<f64> { value(h).iter().zip(value(-h)).map(|(a, b)| (a - b) / (2.0 * h)).collect() };
     slope(h / 2.0).iter().zip(slope(h)).map(|(fine, coarse)| (4.0 * fine - coarse) / 3.0).collect()
 }
 
@@ -44,7 +43,8 @@ fn errors(aircraft: &Aircraft, inputs: &Inputs, seed: u64) -> [f64; 2] {
             let silent = expected.iter().chain(&found).all(|v| v.abs() < 1e-7);
             // position enters no equation, nor does the tail rotor's inflow without air
             let idle = (10..13).contains(&column)
-                || matches!(inputs.inflow, HeldInflow::Vacuum) && aircraft.layout.tail_inflow().contains(&column);
+                || matches!(inputs.inflow, HeldInflow::Vacuum)
+                    && aircraft.layout.tail_inflow().contains(&column);
             assert_eq!(silent, which == 0 && idle, "column {column}");
             if !silent {
                 let e = relative_error(&found, &expected);

@@ -83,7 +83,8 @@ fn fly(aircraft: &Aircraft, n: usize) -> Balance {
     };
     let at = |t: f64, y: &[f64]| invariants(aircraft, t, y, &slope(t, y).0, pitch);
     let (energy, [momentum, moment, first]) = at(0.0, &y);
-    let moved = |y: &[f64], k: &[f64], h: f64| -> Vec<f64> { y.iter().zip(k).map(|(y, k)| y + h * k).collect() };
+    let moved =
+        |y: &[f64], k: &[f64], h: f64| -> Vec<f64> { y.iter().zip(k).map(|(y, k)| y + h * k).collect() };
     let (mut work, mut most_work) = (0.0, 0f64);
     for step in 0..n {
         let t = step as f64 * h;

@@ -36,7 +36,8 @@ impl Case {
         p.control_stiffness = 1e9;
         p.chord.y = vec![self.chord];
         p.root_cutout = self.cutout;
-        let d = Discretisation { n_elements: 4, n_modes: 2, n_gauss: 8, n_stations: 400, reference_pitch: 0.0 };
+        let d =
+            Discretisation { n_elements: 4, n_modes: 2, n_gauss: 8, n_stations: 400, reference_pitch: 0.0 };
         Blade::new(&p, OMEGA, 1.0, &d).unwrap()
     }
     /// Flap inertia of 1 kg/m about the hinge.
@@ -155,14 +156,8 @@ fn errors(case: &Case, closed: impl Fn(&Case) -> [f64; 3]) -> [f64; 2] {
 #[test]
 fn hover_flapping_with_hinge_offset_follows_the_closed_form() {
     for hinge in [0.0, 0.4, 1.2] {
-        let case = Case {
-            hinge,
-            cutout: 1.3,
-            chord: 0.5,
-            lock: 8.0,
-            mu: 0.0,
-            controls: [0.08, 0.02, -0.03, 0.03],
-        };
+        let case =
+            Case { hinge, cutout: 1.3, chord: 0.5, lock: 8.0, mu: 0.0, controls: [0.08, 0.02, -0.03, 0.03] };
         let e = errors(&case, Case::closed_form_hover);
         println!("hinge at {hinge} m: {:.2e}, with a quarter of the controls {:.2e}", e[0], e[1]);
         assert!(e[0] < 0.01 && e[1] < 0.0005, "{e:?}");

@@ -68,7 +68,8 @@ fn section_rates_are_time_derivatives_of_the_triad() {
             let (shift, turned) = m.test_motion(&point.shapes, i);
             let expected = axial(&derivative, &triad(&m));
             worst[4] = worst[4].max(relative_error(&turned.array(), &expected));
-            worst[4] = worst[4].max(relative_error(&shift.array(), &varied.position.array().map(|v| v.eps[0])));
+            worst[4] =
+                worst[4].max(relative_error(&shift.array(), &varied.position.array().map(|v| v.eps[0])));
         }
     }
     println!("velocity, acceleration, omega, omega_dot, test motions: {worst:?}");

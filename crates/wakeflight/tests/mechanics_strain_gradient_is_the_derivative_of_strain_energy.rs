@@ -14,7 +14,7 @@ fn strain_gradient_is_the_derivative_of_strain_energy() {
     let mut worst = 0f64;
     let mut random = Random::new(1);
     for blade in [blade(), general_blade()] {
-        for angle in [0.02, 0.2, 0.6] {
+        for angle in [0.02, 0.2, 0.4] {
             for pitch in [-0.5, 0.0, 0.313, 1.4, 3.0] {
                 let q = random_modal(&blade, angle, &mut random);
                 let (_, gradient) = strain_energy(&blade, &q, pitch);
@@ -69,6 +69,7 @@ fn strain_energy_equals_that_of_the_turning_rate_of_the_triad_along_the_span() {
 fn rigid_motion_about_the_hinge_has_no_strain() {
     let mut shapes = StationShapes {
         x: 5.0,
+        length: 4.6,
         v: [[0.0; MAX_MODES]; 3],
         w: [[0.0; MAX_MODES]; 3],
         theta: [0.0; MAX_MODES],

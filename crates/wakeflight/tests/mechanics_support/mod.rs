@@ -102,8 +102,14 @@ pub fn strain_energy<S: Real>(blade: &Blade, q: &[S; MAX_MODES], pitch: f64) -> 
     let mut gradient = [S::zero(); MAX_MODES];
     let mut energy = S::zero();
     for p in &blade.structure {
-        energy +=
-            add_strain_gradient(&p.shapes, &p.stiffness, blade.n_modes, q, S::cst(pitch + p.twist), &mut gradient);
+        energy += add_strain_gradient(
+            &p.shapes,
+            &p.stiffness,
+            blade.n_modes,
+            q,
+            S::cst(pitch + p.twist),
+            &mut gradient,
+        );
     }
     let mut wind_up = S::zero();
     for i in 0..blade.n_modes {
@@ -264,7 +270,9 @@ pub fn time_derivative<const N: usize>(t: f64, h: f64, f: impl Fn(f64) -> [f64; 
 pub type Matrix3<S> = [[S; 3]; 3];
 
 pub fn product<S: Real>(a: &Matrix3<S>, b: &Matrix3<S>) -> Matrix3<S> {
-    std::array::from_fn(|i| std::array::from_fn(|j| a[i][0] * b[0][j] + a[i][1] * b[1][j] + a[i][2] * b[2][j]))
+    std::array::from_fn(|i| {
+        std::array::from_fn(|j| a[i][0] * b[0][j] + a[i][1] * b[1][j] + a[i][2] * b[2][j])
+    })
 }
 
 pub fn transposed<S: Real>(a: &Matrix3<S>) -> Matrix3<S> {
@@ -320,10 +328,14 @@ pub fn section_place<S: Real>(
     hub_attitude: &Matrix3<S>,
 ) -> [[S; 3]; 3] {
     let sum = |shape: &[f64]| (0..5).fold(S::zero(), |a, i| a + q[i] * shape[i]);
-    let mut shortening = sum(&p.shapes.shortening_twist);
+    let mut slopes_squared = S::zero();
     for i in 0..5 {
-        shortening += q[i] * sum(&p.shapes.shortening[i]) * 0.5;
+        slopes_squared += q[i] * sum(&p.shapes.shortening[i]);
     }
+    // the length inboard seen along the span: exact for a rigid turn about the hinge
+    let length = p.shapes.length;
+    let kept = ((S::one() - slopes_squared / length) * (length * length)).sqrt();
+    let shortening = sum(&p.shapes.shortening_twist) + (-kept + length);
     let flap = sum(&p.shapes.w[1]).asin();
     let lead = (sum(&p.shapes.v[1]) / flap.sin_cos().1).asin();
     let theta = control + p.twist + sum(&p.shapes.theta);
