@@ -204,6 +204,10 @@ impl<'a> Shaper<'a> {
     fn area_radius_squared(&self, x: f64) -> f64 {
         let s = &self.properties.structure;
         let i = segment_of(&s.r_in, &s.r_out, x);
+        // a gap at the hinge is massless and couples nothing, as in the eigenproblem
+        if x < s.r_in[i] {
+            return 0.0;
+        }
         if s.mass[i] > 0.0 { self.properties.ka_over_ktheta.powi(2) * s.i_theta[i] / s.mass[i] } else { 0.0 }
     }
 
