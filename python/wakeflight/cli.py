@@ -127,6 +127,7 @@ def compare(
         _request(aircraft, loading, condition, given, name, wake, threads, maneuver, out, lenient=True)
         for name in MODELS
     ]
+    runs: dict[str, Any] = {}
     failures, lines = [], [f"{'inflow':<15}{'trim s':>9}{'flight s':>10}{'total s':>9}"]
     with Progress() as progress:
         for request in requests:
@@ -136,6 +137,7 @@ def compare(
             except NumericalFailure as failure:
                 failures.append(f"{name}: {failure}")
                 continue
+            runs[name] = flight.data
             attributes = flight.data.attrs
             in_flight = attributes.get("seconds_wake", 0.0) + attributes.get("seconds_dynamics", 0.0)
             lines.append(
@@ -143,6 +145,10 @@ def compare(
                 f"{attributes.get('seconds_total', 0.0):>9.1f}"
             )
     print("\n".join(lines))
+    if len(runs) > 1:
+        from . import report as reports
+
+        print(f"wrote {reports.write(runs, _folder(requests[0].out))}, the models side by side")
     if failures:
         raise NumericalFailure("; ".join(failures))
 
