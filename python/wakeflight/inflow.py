@@ -42,16 +42,12 @@ _RANGES: dict[str, tuple[float, float]] = {
     "n_stations": (5, 200),
     "release_radius": (0.5, 1.0),
     "relaxation": (0.01, 1.0),
-    "max_iterations": (1, 1000),
-    "max_iterations_response": (1, 1000),
-    "tolerance": (1e-12, 0.1),
     "sweeps": (1, 100),
     "inflow_relaxation": (0.01, 1.0),
     "inflow_tolerance": (1e-12, 0.1),
     "max_loops": (1, 1000),
     "max_loops_response": (1, 1000),
     "convergence_revolutions": (0, 200),
-    "convergence_tolerance": (0.0, 1.0),
 }
 
 _WHOLE = {
@@ -59,8 +55,6 @@ _WHOLE = {
     "near_wake_segments",
     "far_wake_turns",
     "n_stations",
-    "max_iterations",
-    "max_iterations_response",
     "sweeps",
     "max_loops",
     "max_loops_response",
@@ -202,12 +196,6 @@ class RelaxationWake(_Wake):
 
     relaxation: float = 0.5
     """Share of a new geometry taken in each sweep: 0.3 in hover."""
-    max_iterations: int = 60
-    """Sweeps at most when the wake stands alone or in trim."""
-    max_iterations_response: int = 10
-    """Sweeps at most when the wake is renewed in flight."""
-    tolerance: float = 1e-4
-    """Change of geometry over the radius at which the sweeps stop."""
     sweeps: int = 2
     """Sweeps in each iteration of inflow and circulation."""
     inflow_relaxation: float = 0.7
@@ -239,8 +227,6 @@ class TimeMarchingWake(_Wake):
     """Weight of a second difference in time that damps the odd-even mode of PC2B (0.05)."""
     convergence_revolutions: int = 10
     """Revolutions at frozen states before the flight."""
-    convergence_tolerance: float = 1e-4
-    """Change of inflow per revolution over its mean below which the convergence phase counts as converged."""
 
     name: ClassVar[str] = "time-marching"
 

@@ -64,7 +64,7 @@ def test_options_reach_the_core():
         (TimeMarchingWake, {"core_radius": float("nan")}),
         (TimeMarchingWake, {"time_filter": 0.05, "form": "position"}),
         (RelaxationWake, {"relaxation": 0.0}),
-        (RelaxationWake, {"max_iterations": 0}),
+        (RelaxationWake, {"max_loops": 0}),
         (DynamicInflow, {"azimuth_step": "7 deg"}),
     ],
 )

@@ -28,8 +28,8 @@ def test_trimmed_flight_with_sticks_held_stays_for_a_second(baseline_dynamic):
 def test_trimmed_flight_with_a_free_wake_drifts_slowly(baseline_relaxation, inflow):
     # the marching wake drifts from the relaxation trim by its own inflow; bounds are twice what was measured
     flight = wf.fly(baseline_relaxation, STILL, inflow=inflow)
-    assert largest(flight, "pqr") < 2.5
-    assert largest(flight, ("roll", "pitch", "yaw"), about_start=True) < 1.5
+    assert largest(flight, "pqr") < 1.2
+    assert largest(flight, ("roll", "pitch", "yaw"), about_start=True) < 0.8
 
 
 def test_a_convergence_phase_reproduces_the_wake_standing_alone_bit_for_bit(baseline_relaxation):
