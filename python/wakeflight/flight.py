@@ -31,6 +31,10 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
+RTOL = 1e-5
+"""Relative tolerance of the solver that the absolute ones belong to."""
+
+
 @dataclass(frozen=True)
 class Flight:
     """A flown manoeuvre: `data` is its Dataset; a flight that stopped early says why in `failure`."""
@@ -160,11 +164,12 @@ def fly(
     revolutions: float | None = None,
     integrator: str = "ida",
     progress: Progress | Silent | None = None,
-    rtol: float = 1e-5,
+    rtol: float = RTOL,
     stabilator: str = "held",
 ) -> Flight:
     """Fly `maneuver` from `start`.
 
+    rtol: relative tolerance of the solver, its absolute ones go with it.
     stabilator: `held` at its trim incidence, or `scheduled`, following its schedule within the rate of its servo.
 
     inflow: name or model, by default time-marching from a trim on a free wake, dynamic from a dynamic one. revolutions:
@@ -185,7 +190,7 @@ def fly(
         progress(f"warning: {text}")
 
     source, phase = inflow_source(model, start, progress)
-    solver = IdaIntegrator(model, rtol)
+    solver = IdaIntegrator(model, rtol, atol_scale=rtol / RTOL)
     recorder = Recorder(model, start, maneuver, source, n_steps)
     seconds = {"wake": 0.0, "dynamics": 0.0}
     delta_t = 2 * np.pi / model.omega / model.steps_per_revolution

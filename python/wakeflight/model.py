@@ -16,9 +16,6 @@ from .condition import FlightCondition
 from .inflow import DynamicInflow, InflowModel
 from .units import STANDARD_GRAVITY
 
-N_GAUSS = 8
-"""Quadrature points per finite element: the equations of motion then have the eigenproblem's frequencies within 1e-5."""
-
 
 @dataclass(frozen=True)
 class Model:
@@ -47,7 +44,7 @@ class Model:
             not isinstance(inflow, DynamicInflow),
             d.n_elements,
             d.n_modes,
-            N_GAUSS,
+            d.n_gauss,
             inflow.n_stations,
             d.reference_pitch,
         )

@@ -153,8 +153,12 @@ def trim(
     inflow: str | InflowModel = "relaxation",
     progress: Progress | Silent | None = None,
     n_harmonics: int = 8,
+    control_tolerance: float = CONTROL_TOLERANCE,
 ) -> Trim:
     """Trim `aircraft` in `condition` (default: the aircraft's own) with an inflow model.
+
+    n_harmonics: harmonics of the blades' periodic motion. control_tolerance: change of a pitch control [rad] between trims on a
+    free wake at which they rest.
 
     Raises `InputError` for bad input and `NumericalFailure`, naming the equation that is not met, where no trim is found.
     """
@@ -179,11 +183,15 @@ def trim(
     inflow_map, _ = dynamic_map(simple, problem, x, model.steps_per_revolution)
     x = np.delete(x, slice(7, 10))
     wake = WakeInTrim(model, inflow_map)
-    problem, x, inflow_map, history = on_relaxation(model, wake, x, inflow_map, n_harmonics, progress)
+    problem, x, inflow_map, history = on_relaxation(
+        model, wake, x, inflow_map, n_harmonics, progress, control_tolerance
+    )
     circulation = wake.circulation
     if isinstance(chosen, TimeMarchingWake):
         model = Model.build(aircraft, condition, chosen)
-        problem, x, inflow_map, circulation = on_marching(model, problem, x, wake, n_harmonics, progress)
+        problem, x, inflow_map, circulation = on_marching(
+            model, problem, x, wake, n_harmonics, progress, control_tolerance
+        )
     seconds = time.perf_counter() - started
     return Trim(model, problem, x, inflow_map, circulation, wake, seconds, history, dict(wake.counters))
 
@@ -195,6 +203,7 @@ def on_relaxation(
     inflow_map: np.ndarray,
     n_harmonics: int,
     progress: Progress | Silent,
+    control_tolerance: float = CONTROL_TOLERANCE,
 ) -> tuple[_core.TrimProblem, np.ndarray, np.ndarray, list[dict[str, float]]]:
     """Trim and wake in turn until the pitch controls rest: problem, unknowns, inflow map, history."""
     history: list[dict[str, float]] = []
@@ -203,7 +212,7 @@ def on_relaxation(
         before = model.pitch_controls(x[:4])
         x = solve(model, problem, x)
         change = float(np.max(np.abs(model.pitch_controls(x[:4]) - before)))
-        if outer > 0 and change < CONTROL_TOLERANCE and wake.converged:
+        if outer > 0 and change < control_tolerance and wake.converged:
             history[-1]["control_change"] = change
             return problem, x, inflow_map, history
         wake.converge(problem, x)
@@ -212,7 +221,7 @@ def on_relaxation(
         progress.advance(1, f"inflow change {wake.last['inflow_change']:.1e}, controls {change:.1e} rad")
     raise NumericalFailure(
         f"trim on the free wake did not settle in {MAX_OUTER} passes: pitch controls still move {change:.2e} rad "
-        f"(allowed {CONTROL_TOLERANCE:g}), inflow {wake.last['inflow_change']:.2e} of the tip speed "
+        f"(allowed {control_tolerance:g}), inflow {wake.last['inflow_change']:.2e} of the tip speed "
         f"(allowed {model.inflow.inflow_tolerance:g})"
     )
 
@@ -390,6 +399,7 @@ def on_marching(
     wake: WakeInTrim,
     n_harmonics: int,
     progress: Progress | Silent,
+    control_tolerance: float = CONTROL_TOLERANCE,
 ) -> tuple[_core.TrimProblem, np.ndarray, np.ndarray, np.ndarray]:
     """Trim on the time-marching wake: march a revolution at the trimmed motion, trim on its inflow, until controls rest."""
     march = wake.marching(model)
@@ -400,6 +410,7 @@ def on_marching(
         x = solve(model, problem, x)
         change = float(np.max(np.abs(model.pitch_controls(x[:4]) - before)))
         progress.advance(1, f"marching wake: controls {change:.1e} rad")
-        if revolution > 2 and change < 0.1 * CONTROL_TOLERANCE:
+        if revolution > 2 and change < 0.1 * control_tolerance:
+            wake.counters["wake_segment_evaluations"] += march.segment_evaluations
             return problem, x, inflow_map, circulation
     raise NumericalFailure(f"trim on the time-marching wake did not settle: controls still move {change:.2e} rad")

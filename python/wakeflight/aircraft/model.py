@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from pydantic import BaseModel
+from pydantic import BaseModel, ValidationError
 
 from ..errors import InputError
 from ..units import STANDARD_GRAVITY, quantity, shown
@@ -35,10 +35,11 @@ class SourceRow(NamedTuple):
 
 
 class Settings(NamedTuple):
-    """Discretisation: blade modes, finite elements, azimuth step [rad], pitch of the mode problem [rad]."""
+    """Discretisation: blade modes, finite elements, quadrature points of each, azimuth step, pitch of the mode problem [rad]."""
 
     n_modes: int
     n_elements: int
+    n_gauss: int
     azimuth_step: float
     reference_pitch: float
 
@@ -129,6 +130,18 @@ class Aircraft:
     def discretisation(self) -> Settings:
         """Modes, elements, azimuth step and reference pitch."""
         return self._discretisation
+
+    def discretised(self, **given: Any) -> Aircraft:
+        """This aircraft with another `[discretisation]`: keys of the file, checked as there."""
+        from .schema import Discretisation
+
+        try:
+            chosen = Discretisation(**{**dict(self._spec.discretisation), **given})
+        except ValidationError as reason:
+            error = reason.errors()[0]
+            key = str(error["loc"][0])
+            raise InputError.of(key, given.get(key), error["msg"][0].lower() + error["msg"][1:]) from None
+        return Aircraft(self._spec.model_copy(update={"discretisation": chosen}), self._path, self._loading_name)
 
     @property
     def chord(self) -> float:
@@ -240,4 +253,4 @@ def _settings(spec: AircraftFile, path: Path) -> Settings:
     from ..inflow import check_azimuth_step
 
     check_azimuth_step(step, int(spec.rotor.n_blades), f"{path}: discretisation.azimuth_step")
-    return Settings(given.n_modes, given.n_elements, step, pitch)
+    return Settings(given.n_modes, given.n_elements, given.n_gauss, step, pitch)
