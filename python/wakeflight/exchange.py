@@ -98,6 +98,14 @@ class MarchingExchange:
         """Tip vortices (n_blades, n_ages, 3) [m], hub axes."""
         return self.wake.position()
 
+    def marker_circulation(self, step: int) -> np.ndarray:
+        """Circulation of the nodes of the tip vortices (n_blades, n_ages) [m2/s]."""
+        return self.wake.marker_circulation()
+
+    def core_radius(self, step: int) -> np.ndarray:
+        """Core radii of the segments of the tip vortices (n_blades, n_ages - 1) [m]."""
+        return self.wake.core_radius()
+
     @property
     def segment_evaluations(self) -> int:
         """Counted evaluations of the segment law."""
@@ -143,6 +151,16 @@ class RelaxationExchange:
     def position(self, step: int) -> np.ndarray:
         """Tip vortices (n_blades, n_ages, 3) [m], hub axes, with the blades at their azimuths of `step`."""
         return self.trimmed.relaxation.position()[self.rows(step)]
+
+    def marker_circulation(self, step: int) -> np.ndarray:
+        """Circulation of the nodes of the tip vortices (n_blades, n_ages) [m2/s]: that of the azimuth of their release."""
+        relaxation = self.trimmed.relaxation
+        released = np.asarray(self.rows(step))[:, None] - np.arange(relaxation.position().shape[1])
+        return np.asarray(relaxation.tip_circulation())[released % self.n]
+
+    def core_radius(self, step: int) -> np.ndarray:
+        """Core radii of the segments of the tip vortices (n_blades, n_ages - 1) [m]."""
+        return self.trimmed.relaxation.core_radius()[self.rows(step)]
 
     @property
     def segment_evaluations(self) -> int:

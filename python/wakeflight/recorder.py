@@ -48,7 +48,10 @@ class Recorder:
                 "stabilator",
             )
         }
+        self.blade_angles = {name: np.empty((n, blades)) for name in ("flap", "lead")}
         self.snapshots: list[np.ndarray] = []
+        self.snapshot_circulation: list[np.ndarray] = []
+        self.snapshot_core: list[np.ndarray] = []
         self.snapshot_revolution: list[float] = []
 
     def record(
@@ -72,6 +75,8 @@ class Recorder:
             values[step] = out[name]
         for name in ("ct", "beta_1c", "beta_1s"):
             self.scalars[name][step] = out[name]
+        angles = self.model.core.equivalent_angles(self.model.modal(y)[0])
+        self.blade_angles["flap"][step], self.blade_angles["lead"][step] = angles
         self.scalars["power"][step] = sum(out["power"])
         self.scalars["stabilator"][step] = stabilator
         dynamic = isinstance(self.model.inflow, DynamicInflow)
@@ -83,6 +88,8 @@ class Recorder:
         self.scalars["max_displacement"][step] = monitors.get("max_displacement", 0.0)
         if wake is not None and step % (self.model.steps_per_revolution // SNAPSHOTS_PER_REVOLUTION) == 0:
             self.snapshots.append(position_of(wake, step))
+            self.snapshot_circulation.append(wake.marker_circulation(step))
+            self.snapshot_core.append(at_nodes(wake.core_radius(step)))
             self.snapshot_revolution.append(step / self.model.steps_per_revolution)
         # a row counts only when it is finite: what cannot be kept ends the flight
         if not np.all(np.isfinite(self.state[step])) or not np.all(np.isfinite(self.loads["force"][step])):
@@ -117,6 +124,7 @@ class Recorder:
             arrays |= dict(zip((f"{kind}_x", f"{kind}_y", f"{kind}_z"), self.loads[kind][:n].T, strict=True))
         arrays |= {name: values[:n] for name, values in self.blade.items()}
         arrays |= {name: values[:n] for name, values in self.scalars.items()}
+        arrays |= {name: values[:n] for name, values in self.blade_angles.items()}
         if not isinstance(model.inflow, DynamicInflow):
             arrays |= self._wake_arrays(phase)
         counted = self._counters()
@@ -143,6 +151,8 @@ class Recorder:
         if self.snapshots:
             positions = np.array(self.snapshots)
             arrays["wake"] = positions
+            arrays["wake_circulation"] = np.array(self.snapshot_circulation)
+            arrays["wake_core"] = np.array(self.snapshot_core)
             arrays["snapshot_revolution"] = np.array(self.snapshot_revolution)
             arrays["age"] = 2 * np.pi * np.arange(positions.shape[2]) / self.model.steps_per_revolution
         n = self.model.steps_per_revolution
@@ -195,6 +205,13 @@ class Recorder:
 def position_of(wake: Any, step: int) -> np.ndarray:
     """Tip vortices of either free wake (n_blades, n_ages, 3) [m]."""
     return wake.position(step) if hasattr(wake, "updates") else wake.position()
+
+
+def at_nodes(of_segments: np.ndarray) -> np.ndarray:
+    """Core radii at the nodes (n_blades, n_ages) from those of the segments between them: mean of the squares."""
+    squared = of_segments**2
+    ends = np.concatenate([squared[:, :1], squared, squared[:, -1:]], axis=1)
+    return np.sqrt((ends[:, 1:] + ends[:, :-1]) / 2)
 
 
 def convergence_attributes(phase: ConvergencePhase) -> dict[str, Any]:

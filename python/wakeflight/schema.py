@@ -106,6 +106,13 @@ RUN: tuple[Variable, ...] = (
         "tip vortex circulation at its nodes",
         optional=True,
     ),
+    Variable("wake_core", ("snapshot", "blade", "age"), "m", "tip vortex core radius at its nodes", optional=True),
+    *_rows(
+        BLADE,
+        ("flap", "rad", "flap angle of the rigid blade with the same tip, up positive"),
+        ("lead", "rad", "lead angle of the rigid blade with the same tip, in the direction of rotation positive"),
+        optional=True,
+    ),
     *_rows(
         TIME,
         ("beta_0", "rad", "coning: mean of the first flap mode over the blades"),

@@ -94,6 +94,7 @@ def run_arrays(revolutions=12, wake=True, strength=1.0):
             "age": shapes[0][0],
             "wake": np.stack([nodes for _, nodes in shapes]),
             "wake_circulation": np.broadcast_to(25.0, (len(marks), N_BLADES, shapes[0][0].size)).copy(),
+            "wake_core": np.broadcast_to(0.02 * RADIUS, (len(marks), N_BLADES, shapes[0][0].size)).copy(),
             "snapshot_revolution": marks,
             "psi": grid,
             "inflow_trim": disk,

@@ -78,6 +78,7 @@ def test_wakes_are_exported_as_polylines(tmp_path):
         "age",
         "blade",
         "circulation",
+        "core_radius",
     }
     with pytest.raises(ValueError, match="no wake"):
         vtk.write(synthetic.run("dynamic"), tmp_path)

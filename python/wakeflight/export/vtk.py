@@ -14,8 +14,8 @@ if TYPE_CHECKING:
 def write(run: xr.Dataset, out_dir: str | Path, name: str = "wake") -> Path:
     """Write every wake snapshot of a run, a polyline per blade in hub axes [m]: x aft, y right, z up.
 
-    Point data: `age` [rad], `blade` and, where the run has it, `circulation` [m2/s]. Times in the series are
-    seconds from the start of the flight. Returns the path of the .pvd file, the one to open.
+    Point data: `age` [rad], `blade` and, where the run has them, `circulation` [m2/s] and `core_radius` [m]. Times in the series
+    are seconds from the start of the flight. Returns the path of the .pvd file, the one to open.
     """
     if "wake" not in run:
         raise ValueError("the run has no wake to export")
@@ -30,8 +30,9 @@ def write(run: xr.Dataset, out_dir: str | Path, name: str = "wake") -> Path:
             "age": np.broadcast_to(run["age"].values, nodes.shape[:2]),
             "blade": np.broadcast_to(run["blade"].values[:, None], nodes.shape[:2]),
         }
-        if "wake_circulation" in run:
-            data["circulation"] = snapshot["wake_circulation"].values
+        for name, variable in (("circulation", "wake_circulation"), ("core_radius", "wake_core")):
+            if variable in run:
+                data[name] = snapshot[variable].values
         file = f"{name}-{k:03d}.vtp"
         (out_dir / file).write_text(poly_data(nodes, data), encoding="ascii")
         entries.append(f'    <DataSet timestep="{time:.9g}" file="{file}"/>')
