@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from .aircraft import Aircraft, load_aircraft
     from .condition import FlightCondition, condition_for
+    from .converge import converge
     from .errors import InputError, NumericalFailure, WakeflightError
     from .flight import Flight, fly
     from .inflow import DynamicInflow, RelaxationWake, TimeMarchingWake, inflow_model
@@ -33,6 +34,7 @@ _HOME = {
     "load_aircraft": "aircraft",
     "FlightCondition": "condition",
     "condition_for": "condition",
+    "converge": "converge",
     "InputError": "errors",
     "NumericalFailure": "errors",
     "WakeflightError": "errors",
@@ -70,6 +72,7 @@ __all__ = [
     "bibtex",
     "blade_modes",
     "condition_for",
+    "converge",
     "fly",
     "induced_velocity",
     "inflow_model",

@@ -237,6 +237,61 @@ def report(
     print(f"wrote {folder / 'report.html'}")
 
 
+@app.command()
+def converge(
+    run: Annotated[str, typer.Argument(metavar="RUN", help="trim, arrested-descent, roll-reversal, or a TOML file")],
+    vary: Annotated[
+        str, typer.Option("--vary", metavar="NAME", help="azimuth-step, wake-turns, modes, tolerance, ...")
+    ],
+    values: Annotated[str, typer.Option("--values", metavar="LIST", help='"15 deg, 10 deg, 5 deg", "5, 8, 10"')],
+    inflow: InflowName = "time-marching",
+    aircraft: AircraftName = "uh60a",
+    loading: LoadingName = None,
+    condition: ConditionName = None,
+    speed: Speed = None,
+    flight_path: FlightPath = None,
+    altitude: Altitude = None,
+    weight: Weight = None,
+    sideslip: Sideslip = None,
+    turn_rate: TurnRate = None,
+    bank: Bank = None,
+    revolutions: Revolutions = None,
+    azimuth_step: AzimuthStep = None,
+    wake_turns: WakeTurns = None,
+    wake_scheme: WakeScheme = None,
+    integrator: Integrator = "ida",
+    threads: Threads = None,
+    out: Out = None,
+) -> None:
+    """Repeat a run at several settings of one discretisation; print error estimate and cost of each."""
+    given = _given(speed, flight_path, altitude, weight, sideslip, turn_rate, bank)
+    wake = {"azimuth_step": azimuth_step, "turns": wake_turns, "scheme": wake_scheme}
+    _check_flight(revolutions, integrator)
+    request = _request(aircraft, loading, condition, given, inflow, wake, threads, None, out or Path("runs/converge"))
+    from .converge import converge as study_of
+    from .plotting import convergence, style
+    from .progress import Progress
+
+    with Progress() as progress:
+        study = study_of(
+            request.aircraft,
+            run,
+            vary=vary,
+            values=values,
+            condition=request.condition,
+            inflow=request.inflow,
+            revolutions=revolutions,
+            integrator=integrator,
+            progress=progress,
+        )
+    print(study.table())
+    study.save(_folder(request.out))
+    style.save(convergence.figure(study.data), request.out / "converge.png")
+    print(f"wrote converge.nc, .csv, .md and .png in {request.out}")
+    if study.failures:
+        raise NumericalFailure("; ".join(study.failures))
+
+
 def _not_yet(name: str) -> None:
     def command() -> None:
         raise InputError(f"not in this version yet: {name}")
@@ -246,7 +301,7 @@ def _not_yet(name: str) -> None:
     app.command(name, context_settings=ignore, add_help_option=True)(command)
 
 
-for _name in ("tunnel", "validate", "converge", "paper"):
+for _name in ("tunnel", "validate", "paper"):
     _not_yet(_name)
 
 

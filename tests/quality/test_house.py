@@ -36,7 +36,7 @@ PYTHON_ORDER = (
     {"wake_trim", "trim_results", "recorder"},
     {"trim"},
     {"flight", "tunnel"},
-    {"linearize", "sweep"},
+    {"linearize", "sweep", "converge"},
     {"plotting", "export"},
     {"report"},
     {"validation", "paper"},

@@ -13,6 +13,7 @@ from wakeflight import cli
 from wakeflight.errors import InputError, NumericalFailure
 
 FLY = ["fly", "arrested-descent"]
+CONVERGE = ["converge", "trim", "--vary"]
 
 
 def _run(capsys, arguments):
@@ -64,7 +65,23 @@ def _nothing_starts(monkeypatch):
         (["sail"], "sail"),
         (["tunnel", "--collective", "8 deg"], "not in this version yet"),
         (["validate"], "not in this version yet"),
-        (["converge", "azimuth"], "not in this version yet"),
+        (["converge", "azimuth"], "--vary"),
+        ([*CONVERGE, "modes", "--values", "5"], "two or more"),
+        ([*CONVERGE, "modes", "--values", "5, 5"], "twice"),
+        ([*CONVERGE, "modes", "--values", "5, 8.5"], "whole"),
+        ([*CONVERGE, "modes", "--values", "5, many"], "many"),
+        ([*CONVERGE, "modes", "--values", "5, 40"], "n_modes"),
+        ([*CONVERGE, "modes", "--values", "5, 25"], "modes"),
+        ([*CONVERGE, "colour", "--values", "1, 2"], "colour"),
+        ([*CONVERGE, "modes,elements", "--values", "1, 2"], "one discretisation at a time"),
+        ([*CONVERGE, "azimuth-step", "--values", "10, 5"], "azimuth_step"),
+        ([*CONVERGE, "azimuth-step", "--values", "10 deg, 7 deg"], "azimuth_step"),
+        ([*CONVERGE, "azimuth-step", "--values", "9 deg, 10 deg"], "near_wake_angle"),
+        ([*CONVERGE, "tolerance", "--values", "1e-4, 1e-5"], "not a discretisation of a trim"),
+        ([*CONVERGE, "wake-turns", "--values", "3, 4", "--inflow", "dynamic"], "wake-turns"),
+        ([*CONVERGE, "modes", "--values", "3, 4", "--revolutions", "2"], "revolutions"),
+        (["converge", "sailing", "--vary", "modes", "--values", "3, 4"], "sailing"),
+        (["converge", "roll-reversal", "--vary", "tolerance", "--values", "0, 1e-4"], "tolerance"),
         (["paper"], "not in this version yet"),
         (["compare", "arrested-descent", "--speed", "80"], "speed"),
         (["trim", "--speed", "80"], "speed"),
