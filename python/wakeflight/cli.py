@@ -34,7 +34,7 @@ app = typer.Typer(
 ManeuverName = Annotated[
     str, typer.Argument(metavar="MANEUVER", help="arrested-descent, roll-reversal, or a TOML file")
 ]
-AircraftName = Annotated[str, typer.Option("--aircraft", metavar="NAME|FILE", help="uh60a, or an aircraft file")]
+AircraftName = Annotated[str, typer.Option("--aircraft", metavar="NAME|FILE", help="uh60a, bo105, or an aircraft file")]
 LoadingName = Annotated[str | None, typer.Option("--loading", help="named mass and c.g. of the aircraft file")]
 ConditionName = Annotated[str | None, typer.Option("--condition", help="named condition of the aircraft file")]
 InflowName = Annotated[str, typer.Option("--inflow", help="time-marching, relaxation, dynamic")]
@@ -387,6 +387,7 @@ def _request(
     if hasattr(model, "core_options"):
         model.core_options(loaded)
     if flown is not None:
+        flown = flown.for_aircraft(loaded.stick_travel_in, float(loaded.rotor.omega))
         flown.check_span(loaded.stick_travel_in)
     folder = _writable(out if out is not None else Path("runs") / (flown.name if flown is not None else "run"))
     return _Request(loaded, complete, model, folder, flown)

@@ -173,7 +173,9 @@ def fly(
     stabilator: `held` at its trim incidence, or `scheduled`, following its schedule within the rate of its servo.
 
     inflow: name or model, by default time-marching from a trim on a free wake, dynamic from a dynamic one. revolutions:
-    flown ones, by default the manoeuvre's. A numerical failure raises `NumericalFailure` whose `partial` is the Flight so far.
+    flown ones, by default the manoeuvre's. A manoeuvre written for another travel or rotor speed is flown as
+    `Maneuver.for_aircraft` makes it; the Flight holds it as flown. A numerical failure raises `NumericalFailure` whose
+    `partial` is the Flight so far.
     """
     progress = progress or Silent()
     begun = time.perf_counter()
@@ -182,9 +184,12 @@ def fly(
         raise InputError.of("integrator", integrator, "allowed: ida (fixed is not in this version yet)")
     if stabilator not in ("held", "scheduled"):
         raise InputError.of("stabilator", stabilator, "allowed: held, scheduled")
+    travel = start.aircraft.stick_travel_in
+    maneuver = maneuver.for_aircraft(travel, model.omega)
+    for text in maneuver.adapted:
+        progress(f"note: {text}")
     n_steps = flown_steps(model, maneuver, revolutions)
     sticks = Sticks(maneuver, start.stick_si)
-    travel = start.aircraft.stick_travel_in
     warnings = maneuver.check_travel(sticks.trim_in, travel, None, start.aircraft.stick_rate_limit_in)
     for text in warnings:
         progress(f"warning: {text}")

@@ -3,6 +3,8 @@
 
 A file holds a name, a duration in revolutions or seconds, and for each stick that moves its corner points
 (time [s], inches from trim). Before the first corner a stick stays at trim, after the last where it was left.
+A file that names the `travel` its inches belong to is flown on any aircraft by the same share of its travel; one that
+names the `rotor_speed` its revolutions belong to lasts as long on any aircraft: times are the pilot's and stay.
 """
 
 from __future__ import annotations
@@ -38,8 +40,9 @@ class Maneuver:
     """A stick history about trim.
 
     corners_of: for each stick that moves, its corner points (time [s], inches from trim), times ascending.
-    revolutions, seconds: duration, one of the two given. travel_in: travel the inches belong to [in].
-    shipped: whether it comes with the package and is flown as published, even beyond the stops.
+    revolutions, seconds: duration, one of the two given. travel_in: travel the inches belong to [in], rotor_speed: rotor
+    speed the revolutions belong to [rad/s]; None: they are those of whatever aircraft flies. shipped: whether it comes with
+    the package and is flown as published, even beyond the stops. adapted: what `for_aircraft` changed, a sentence each.
     """
 
     name: str
@@ -48,8 +51,10 @@ class Maneuver:
     seconds: float | None = None
     notes: str = ""
     references: tuple[str, ...] = ()
-    travel_in: float = 10.0
+    travel_in: float | None = None
+    rotor_speed: float | None = None
     shipped: bool = False
+    adapted: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         """Check names, times and values."""
@@ -58,18 +63,26 @@ class Maneuver:
         length = self.revolutions if self.revolutions is not None else self.seconds
         if not (math.isfinite(length) and 0.0 < length <= 10000.0):
             raise InputError.of("duration", length, "must lie above 0 and at most 10000")
-        if not (math.isfinite(self.travel_in) and self.travel_in > 0.0):
-            raise InputError.of("travel", self.travel_in, "must be above 0 in")
+        for name, value, unit in (("travel", self.travel_in, "in"), ("rotor_speed", self.rotor_speed, "rad/s")):
+            if value is not None and not (math.isfinite(value) and value > 0.0):
+                raise InputError.of(name, value, f"must be above 0 {unit}")
         for stick, corners in self.corners_of:
             _check_corners(stick, corners)
 
     def duration(self, omega: float) -> float:
         """Length of the flight [s] with a rotor turning at `omega` [rad/s]."""
-        return self.seconds if self.seconds is not None else self.revolutions * 2.0 * math.pi / omega
+        return self.seconds if self.seconds is not None else self.duration_revolutions(omega) * 2.0 * math.pi / omega
 
     def duration_revolutions(self, omega: float) -> float:
-        """Length of the flight in revolutions of a rotor turning at `omega` [rad/s]."""
-        return self.revolutions if self.revolutions is not None else self.seconds * omega / (2.0 * math.pi)
+        """Length of the flight in revolutions of a rotor turning at `omega` [rad/s].
+
+        Revolutions that belong to another rotor speed become the next whole number that lasts as long.
+        """
+        if self.revolutions is None:
+            return self.seconds * omega / (2.0 * math.pi)
+        if self.rotor_speed is None or abs(omega / self.rotor_speed - 1.0) < 1e-9:
+            return self.revolutions
+        return float(math.ceil(self.revolutions * omega / self.rotor_speed - 1e-6))
 
     def corners(self) -> tuple[float, ...]:
         """Times at which the slope of a stick changes [s], ascending, each once: the solver stops there."""
@@ -100,19 +113,40 @@ class Maneuver:
                     rates[STICKS.index(stick)] = slope
         return rates
 
-    def scaled_to(self, travel_in: Sequence[float]) -> Maneuver:
-        """The same manoeuvre in parts of the travel: inches times the new travel over the own `travel_in`.
+    def for_aircraft(self, travel_in: Sequence[float], omega: float) -> Maneuver:
+        """The manoeuvre in an aircraft's own inches and revolutions; `adapted` says what that changed.
 
-        travel_in: travel of the four sticks of the other aircraft (4,) [in].
+        Inches: times the aircraft's travel over the `travel_in` they belong to. Times stay. Revolutions: as many of its own
+        as last as long. travel_in: travel of the four sticks (4,) [in]; omega: rotor speed [rad/s].
         """
-        scaled = tuple(
-            (
-                stick,
-                tuple((time, inches * travel_in[STICKS.index(stick)] / self.travel_in) for time, inches in corners),
-            )
-            for stick, corners in self.corners_of
+        corners_of, adapted = [], list(self.adapted)
+        for stick, corners in self.corners_of:
+            travel = float(travel_in[STICKS.index(stick)])
+            share = 1.0 if self.travel_in is None else travel / self.travel_in
+            if abs(share - 1.0) > 1e-9:
+                corners = tuple((time, inches * share) for time, inches in corners)
+                adapted.append(
+                    f"{self.name}: {stick} inches times {share:.4g}, as they were written for {self.travel_in:g} in of "
+                    f"travel and this stick has {travel:.4g} in; times as written"
+                )
+            corners_of.append((stick, corners))
+        revolutions = self.revolutions
+        if revolutions is not None:
+            revolutions = self.duration_revolutions(omega)
+            if revolutions != self.revolutions:
+                written = self.revolutions * 2.0 * math.pi / self.rotor_speed
+                adapted.append(
+                    f"{self.name}: {self.revolutions:g} revolutions at {self.rotor_speed:g} rad/s last {written:.3f} s, which "
+                    f"are {revolutions:g} at {omega:g} rad/s, rounded up to whole ones ({self.duration(omega):.3f} s)"
+                )
+        return replace(
+            self,
+            corners_of=tuple(corners_of),
+            revolutions=revolutions,
+            travel_in=None,
+            rotor_speed=None,
+            adapted=tuple(adapted),
         )
-        return replace(self, corners_of=scaled)
 
     def check_span(self, travel_in: Sequence[float]) -> None:
         """Refuse a user's manoeuvre that fits between the stops for no trim; travel_in (4,) [in]."""
@@ -147,7 +181,8 @@ class Maneuver:
                 if not shipped:
                     allowed = f"from {trim:.3f} in reaches {reached}; must stay between 0 and {travel:.4g} in"
                     raise InputError.of(f"{self.name}: {stick}", f"{inches:g} in", allowed)
-                warnings.append(f"{self.name}: {stick} stick reaches {reached}; flown as published")
+                how = "as published, scaled" if self.adapted else "as published"
+                warnings.append(f"{self.name}: {stick} stick reaches {reached}; flown {how}")
             fastest = max((abs(slope) for slope in _slopes(corners)), default=0.0)
             if fastest > limit * (1.0 + 1e-9):
                 warnings.append(f"{self.name}: {stick} moves at {fastest:.1f} in/s, beyond {limit:.4g} in/s; flown so")
@@ -163,7 +198,7 @@ def arrested_descent(start: Any = None) -> Maneuver:
     if start is None:
         return maneuver
     first = quantity(start, "s", "start")
-    end = maneuver.duration(27.0)
+    end = maneuver.duration(maneuver.rotor_speed)
     if not 0.0 <= first < end:
         raise InputError.of("start", start, f"must lie between 0 s and the end of the manoeuvre, {end:.4g} s")
     moved = tuple(
@@ -219,7 +254,8 @@ class _File(BaseModel):
     controls: _Controls
     notes: str = ""
     sources: list[str] = []
-    travel: _Real = 10.0
+    travel: _Real | None = None
+    rotor_speed: _Real | None = None
 
 
 def _shipped(name: str) -> Maneuver:
@@ -256,6 +292,7 @@ def _read(path: Path, shipped: bool) -> Maneuver:
             notes=file.notes.strip(),
             references=tuple(file.sources),
             travel_in=file.travel,
+            rotor_speed=file.rotor_speed,
             shipped=shipped,
         )
     except InputError as reason:

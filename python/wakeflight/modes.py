@@ -93,12 +93,19 @@ def reference_table(aircraft: Aircraft, modes: BladeModes) -> str | None:
     with path.open() as stream:
         rows = list(csv.DictReader(line for line in stream if not line.startswith("#")))
     columns = [name for name in rows[0] if name not in ("mode", "note")]
+    # a column that names some modes only is placed by the first that names them all
+    whole = next((name for name in columns if all(row[name] for row in rows)), None)
     lines = ["against published and computed frequencies, each column in ascending order [1/rev]:"]
     for column in columns:
-        published = sorted((float(row[column]), row["mode"]) for row in rows if row[column])
+        order = whole if whole is not None and not all(row[column] for row in rows) else column
+        ranked = sorted((row for row in rows if row[order]), key=lambda row: float(row[order]))
         lines.append(f"  {column}")
-        for (value, label), ours in zip(published, modes.frequencies, strict=False):
-            lines.append(f"    {label:<20} {value:8.4f}  ours {ours:8.4f}  difference {ours / value - 1:+7.2%}")
+        for row, ours in zip(ranked, modes.frequencies, strict=False):
+            if row[column]:
+                value = float(row[column])
+                lines.append(
+                    f"    {row['mode']:<20} {value:8.4f}  ours {ours:8.4f}  difference {ours / value - 1:+7.2%}"
+                )
     return "\n".join(lines)
 
 

@@ -185,10 +185,18 @@ class Recorder:
             "inflow": {"model": model.inflow.name, **model.inflow.as_attributes()},
             "discretisation": start.aircraft.discretisation._asdict(),
             "trim_inflow": start.inflow.name,
+            "maneuver": {
+                "name": self.maneuver.name,
+                "adapted": list(self.maneuver.adapted),
+                "controls": {
+                    stick: [list(corner) for corner in corners] for stick, corners in self.maneuver.corners_of
+                },
+            },
         }
         return {
             "aircraft": start.aircraft.name,
             "maneuver": self.maneuver.name,
+            "maneuver_adapted": "; ".join(self.maneuver.adapted),
             "inflow_model": model.inflow.name,
             "radius": model.rotor["radius"],
             "omega": model.omega,

@@ -146,6 +146,8 @@ def table(start: Trim) -> str:
     travel = start.aircraft.stick_travel_in
     lam = first_harmonics(start)
     condition = start.condition
+    precone = float(start.aircraft.rotor.blade.precone)
+    beyond = f" beyond {deg(precone):.1f} deg precone" if precone else ""
     rows = [
         (
             "condition",
@@ -164,7 +166,7 @@ def table(start: Trim) -> str:
             ", ".join(f"{deg(c[k]):.3f}" for k in ("theta_0", "theta_1c", "theta_1s", "theta_tr")) + " deg",
         ),
         (
-            "coning, beta_1c, beta_1s",
+            f"coning{beyond}, beta_1c, beta_1s",
             ", ".join(f"{deg(mean[k]):.3f}" for k in ("beta_0", "beta_1c", "beta_1s")) + " deg",
         ),
         ("stabilator", f"{deg(start.stabilator_incidence):7.3f} deg"),

@@ -16,7 +16,6 @@ from wakeflight.errors import InputError
 from wakeflight.references import bibtex, known_keys
 
 UH60A = Path(str(resources.files("wakeflight.aircraft"))) / "uh60a"
-BO105 = Path(__file__).parent / "data" / "bo105"
 
 
 def test_uh60a_rotor_constants_are_consistent():
@@ -84,7 +83,7 @@ def test_gross_inertia_loses_the_blades_at_the_hub():
     assert other[:3] == pytest.approx(base[:3], rel=0.05)
     # computed independently for the BO-105 with four blades of 28.716922 kg; the table, which begins at
     # the clamp to one figure more, has 28.717068 kg: 5e-6 of what is taken out
-    bo105 = load_aircraft(BO105 / "bo105.toml").core_data()["mass"]["inertia"]
+    bo105 = load_aircraft("bo105").core_data()["mass"]["inertia"]
     assert bo105 == pytest.approx([1167.5331, 4706.7568, 4098.2237, 645.64452], rel=2e-6)
 
 
@@ -106,7 +105,7 @@ def test_an_aircraft_can_be_sent_to_another_process():
 
 
 def test_every_number_keeps_its_source_and_confidence():
-    for aircraft in (load_aircraft("uh60a"), load_aircraft(BO105 / "bo105.toml")):
+    for aircraft in (load_aircraft("uh60a"), load_aircraft("bo105")):
         rows = aircraft.sources()
         assert len(rows) > 60
         assert all(row.sources and row.confidence for row in rows)
@@ -120,7 +119,7 @@ def test_every_number_keeps_its_source_and_confidence():
 
 
 def test_a_hingeless_aircraft_needs_no_new_code():
-    aircraft = load_aircraft(BO105 / "bo105.toml")
+    aircraft = load_aircraft("bo105")
     data = aircraft.core_data()
     assert data["rotor"]["blade"]["root"] == "clamped"
     assert data["rotor"]["blade"]["structure"]["r_in"][0] == data["rotor"]["blade"]["root_station"]

@@ -66,9 +66,27 @@ def test_rates_are_the_slopes_of_the_stick():
         assert maneuver.rate(t) == pytest.approx(slope, abs=1e-6)
 
 
-def test_another_aircraft_gets_the_same_share_of_its_travel():
-    scaled = arrested_descent().scaled_to((8.65, 12.12, 9.0, 4.34))
-    assert scaled.offset(0.9654)[2] == pytest.approx(3.7 * 0.9)
+def test_another_aircraft_gets_the_same_share_of_its_travel_and_the_same_times():
+    own, travel = arrested_descent(), (8.65, 12.12, 9.0, 4.34)
+    flown = own.for_aircraft(travel, 44.4)
+    assert flown.offset(0.9654)[2] == pytest.approx(3.7 * 0.9)
+    assert flown.corners() == own.corners()
+    # 12 revolutions at 27 rad/s are 19.73 at 44.4 rad/s: the next whole number
+    assert flown.revolutions == 20
+    assert own.duration(27.0) <= flown.duration(44.4) < own.duration(27.0) + 2 * np.pi / 44.4
+    assert "collective inches times 0.9" in flown.adapted[0]
+    assert "20 at 44.4 rad/s" in flown.adapted[1]
+    # once adapted it is the aircraft's own
+    assert flown.for_aircraft(travel, 44.4) == flown
+    assert own.for_aircraft(TRAVEL, OMEGA).adapted == ()
+    # every corner of the longer manoeuvre is flown on the faster rotor
+    assert roll_reversal().for_aircraft(travel, 44.4).duration(44.4) > roll_reversal().corners()[-1]
+
+
+def test_inches_without_a_travel_are_flown_as_they_are():
+    own = Maneuver("step", (("pedal", ((0.0, 0.0), (1.0, 0.5))),), revolutions=3)
+    flown = own.for_aircraft((8.65, 12.12, 9.0, 4.34), 44.4)
+    assert (flown.offset(1.0)[3], flown.revolutions, flown.adapted) == (0.5, 3, ())
 
 
 def test_any_history_can_come_from_a_file(tmp_path):

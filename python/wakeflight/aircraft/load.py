@@ -15,14 +15,14 @@ from ..references import known_keys
 from .model import Aircraft
 from .schema import AircraftFile
 
-SHIPPED = ("uh60a",)
+SHIPPED = ("uh60a", "bo105")
 """Names of the aircraft that come with the package."""
 
 
 def load_aircraft(name_or_path: str | Path = "uh60a", loading: str | None = None) -> Aircraft:
     """Aircraft from its file, checked: type, unit, range, missing and unknown keys, coverage of every table.
 
-    name_or_path: a shipped name (`uh60a`) or the path of a TOML file.
+    name_or_path: a shipped name (`uh60a`, `bo105`) or the path of a TOML file.
     loading: a named mass and centre of gravity of the file; None is the file's `[loading]`.
     Raises InputError, one line naming file, key, value and what is allowed.
     """

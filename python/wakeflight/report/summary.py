@@ -36,6 +36,8 @@ def summary(run: xr.Dataset) -> list[Row]:
     """Flight, trim and wall clock of one run."""
     attrs = run.attrs
     rows = [Row(NAMES[name], _text(attrs[name])) for name in ("aircraft", "maneuver", "condition") if name in attrs]
+    if attrs.get("maneuver_adapted"):
+        rows.append(Row(NAMES["maneuver_adapted"], _text(attrs["maneuver_adapted"])))
     rows.append(Row(NAMES["inflow_model"], _text(attrs.get("inflow_model", "–"))))
     rows.append(Row("flown", f"{float(run.time[-1]):.2f} s, {revolutions_flown(run):.2f} revolutions"))
     rows.append(Row("finished", "yes" if attrs.get("finished", 1) else "no"))

@@ -6,7 +6,7 @@ use super::error::BladeError;
 use super::kinematics::StationShapes;
 use super::modes::BladeModes;
 use super::quadrature::gauss_points;
-use super::section::BladeProperties;
+use super::section::{BladeProperties, Root};
 use super::strain::Stiffness;
 
 /// Mass and stiffness of a quadrature point, times its weight.
@@ -108,8 +108,8 @@ impl Blade {
         let mut root_twist = [0.0; MAX_MODES];
         let at_root = modes.at(properties.root_station);
         for i in 0..d.n_modes {
-            // hinge modes lie below 1.5/rev and carry no structural damping
-            if modes.frequency[i] > 1.5 * omega {
+            // the two rigid modes of a hinged blade lie below 1.5/rev and strain nothing; a clamped blade bends in all
+            if properties.root == Root::Clamped || modes.frequency[i] > 1.5 * omega {
                 damping[i] = 2.0 * properties.structural_damping_ratio * modes.frequency[i];
             }
             root_twist[i] = at_root.phi[i];

@@ -63,7 +63,7 @@ pub struct BladeProperties {
     pub km1_over_ktheta: f64,
     /// Area radius of gyration over mass radius of gyration (tension-twist coupling).
     pub ka_over_ktheta: f64,
-    /// Structural damping ratio of elastic modes.
+    /// Structural damping ratio of elastic modes: all of a clamped blade, those above 1.5/rev of a hinged one.
     pub structural_damping_ratio: f64,
     /// Pitch-flap coupling angle delta3 [rad]: flap up takes tan(delta3) of pitch away.
     pub delta3: f64,
