@@ -40,6 +40,16 @@ def test_files_and_figure_hold_every_setting(elements, tmp_path):
     style.save(convergence.figure(elements.data), tmp_path / "converge.png")
 
 
+@pytest.mark.parametrize(("vary", "values"), [("modes", "4, 5, 6"), ("stations", "10, 20, 40")])
+def test_the_table_has_a_line_for_every_quantity(uh60a, vary, values):
+    study = wf.converge(uh60a, vary=vary, values=values, inflow="dynamic")
+    for quantity in study.quantities:
+        lines = [line for line in study.table().splitlines() if line.startswith(f"{quantity.name} ")]
+        # among the values and among the errors
+        assert len(lines) == 2
+        assert f"| {quantity.name} |" in study.markdown()
+
+
 def test_histories_are_compared_at_the_instants_all_settings_have(uh60a):
     study = wf.converge(
         uh60a, wf.arrested_descent(), vary="azimuth-step", values="15 deg, 10 deg", inflow="dynamic", revolutions=1

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from .estimate import NOTHING
+from .estimate import NOTHING, Estimate
 
 if TYPE_CHECKING:
     from .study import Study
@@ -87,10 +87,14 @@ def _errors(study: Study) -> Block:
                 cells.append(f"{rms:.2g} {quantity.unit}")
         unit = f"{scale:.3g} {quantity.unit}" if study.is_history else quantity.unit
         order = f"{found.order:.2f}" if found.order is not None else "–"
-        basis = "limit by extrapolation" if found.order is not None else f"finest; {found.note}"
-        rows.append([quantity.name, unit, *cells, order, basis])
+        rows.append([quantity.name, unit, *cells, order, *([] if same else [basis(found)])])
     heading = "error, per cent of the excursion: root mean square (largest)" if study.is_history else "error, magnitude"
-    return heading, rows
+    return f"{heading}; against the {basis(study.estimates[0])}" if same else heading, rows
+
+
+def basis(found: Estimate) -> str:
+    """What an error is measured against, and why."""
+    return "limit, extrapolated" if found.order is not None else f"finest; {found.note}"
 
 
 def _cost(study: Study) -> Block:
