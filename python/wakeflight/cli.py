@@ -239,7 +239,7 @@ def report(
 
 @app.command()
 def converge(
-    run: Annotated[str, typer.Argument(metavar="RUN", help="trim, arrested-descent, roll-reversal, or a TOML file")],
+    run: Annotated[str, typer.Argument(metavar="RUN", help="trim, modes, or a manoeuvre as for fly")],
     vary: Annotated[
         str, typer.Option("--vary", metavar="NAME", help="azimuth-step, wake-turns, modes, tolerance, ...")
     ],

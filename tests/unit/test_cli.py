@@ -80,6 +80,7 @@ def _nothing_starts(monkeypatch):
         ([*CONVERGE, "tolerance", "--values", "1e-4, 1e-5"], "not a discretisation of a trim"),
         ([*CONVERGE, "wake-turns", "--values", "3, 4", "--inflow", "dynamic"], "wake-turns"),
         ([*CONVERGE, "modes", "--values", "3, 4", "--revolutions", "2"], "revolutions"),
+        (["converge", "modes", "--vary", "modes", "--values", "3, 4"], "elements"),
         (["converge", "sailing", "--vary", "modes", "--values", "3, 4"], "sailing"),
         (["converge", "roll-reversal", "--vary", "tolerance", "--values", "0, 1e-4"], "tolerance"),
         (["paper"], "not in this version yet"),

@@ -3,6 +3,7 @@
 
 import csv
 
+import numpy as np
 import pytest
 
 import wakeflight as wf
@@ -48,6 +49,17 @@ def test_the_table_has_a_line_for_every_quantity(uh60a, vary, values):
         # among the values and among the errors
         assert len(lines) == 2
         assert f"| {quantity.name} |" in study.markdown()
+
+
+def test_more_elements_only_lower_the_frequencies_of_the_blade(uh60a):
+    # Ritz: each set of elements contains the coarser one. The order is one, not four, for steps of stiffness lie within
+    # elements: curvature and twist rate jump there and a polynomial cannot
+    study = wf.converge(uh60a, "modes", vary="elements", values=[4, 8, 16, 32, 64])
+    frequencies = study.data["value"].values
+    assert np.all(np.diff(frequencies, axis=0) < 1e-9)
+    torsion = study.estimates[4]
+    assert torsion.order == pytest.approx(1.0, abs=0.3)
+    assert torsion.error[0] < 0.006 * frequencies[-1, 4]
 
 
 def test_histories_are_compared_at_the_instants_all_settings_have(uh60a):

@@ -12,7 +12,7 @@ from ..inflow import InflowModel, inflow_model
 from ..maneuvers import SHIPPED, Maneuver, load_maneuver
 from ..progress import Progress, Silent
 from .parameters import PARAMETERS, Case, Parameter, applied, check_run, parameter, settings
-from .runs import FlightRun, Outcome, Run, TrimRun, warm
+from .runs import FlightRun, ModesRun, Outcome, Run, TrimRun, warm
 from .study import Study
 
 __all__ = ["PARAMETERS", "Study", "converge"]
@@ -32,8 +32,9 @@ def converge(
 ) -> Study:
     """Repeat a run at several settings of one discretisation: error estimate and cost of each.
 
-    run: `trim`, a manoeuvre, its shipped name or file. vary: a name of `PARAMETERS`. values: list, or text with commas,
-    angles with units. The rest as for `trim` and `fly`; trims on a free wake are iterated more tightly than by default.
+    run: `trim`, `modes` (frequencies of the blade), a manoeuvre, its shipped name or file. vary: a name of `PARAMETERS`.
+    values: list, or text with commas, angles with units. The rest as for `trim` and `fly`; trims on a free wake are iterated
+    more tightly than by default.
     A setting that fails is left out and named in `failures`; NumericalFailure where fewer than two are left, with the
     Study so far as `partial`, if any.
     """
@@ -42,8 +43,8 @@ def converge(
     given = settings(chosen, values)
     base = Case(aircraft, inflow_model(inflow))
     complete = condition_for(aircraft, condition)
-    repeated = _run(chosen, run, complete, revolutions, integrator)
-    check_run(chosen, isinstance(repeated, FlightRun), base.inflow)
+    repeated = _run(chosen, run, base, complete, revolutions, integrator)
+    check_run(chosen, run if isinstance(run, str) else "flight", base.inflow)
     cases = [applied(chosen, setting, base) for setting in given]
     for case in cases:
         repeated.check(case)
@@ -60,7 +61,8 @@ def converge(
             progress(f"failed: {failures[-1]}")
     if len(done) < 2:
         raise NumericalFailure("fewer than two settings finished: " + "; ".join(failures))
-    title = f"{aircraft.name}, {repeated.title}, {base.inflow.name} inflow: {chosen.name} varied ({chosen.meaning})"
+    air = "" if run == "modes" else f", {base.inflow.name} inflow"
+    title = f"{aircraft.name}, {repeated.title}{air}: {chosen.name} varied ({chosen.meaning})"
     return Study(
         title,
         chosen,
@@ -72,20 +74,25 @@ def converge(
 
 
 def _run(
-    chosen: Parameter, run: str | Maneuver, condition: FlightCondition, revolutions: float | None, integrator: str
+    chosen: Parameter,
+    run: str | Maneuver,
+    base: Case,
+    condition: FlightCondition,
+    revolutions: float | None,
+    integrator: str,
 ) -> Run:
     """The run by its name."""
     if isinstance(run, Maneuver):
         return FlightRun(chosen, condition, run, revolutions, integrator)
-    if run == "trim":
+    if run in ("trim", "modes"):
         if revolutions is not None:
-            raise InputError.of("revolutions", revolutions, "a trim has none: choose a manoeuvre")
-        return TrimRun(chosen, condition)
+            raise InputError.of("revolutions", revolutions, f"{run} has none: choose a manoeuvre")
+        return TrimRun(chosen, condition) if run == "trim" else ModesRun(base.aircraft.discretisation.n_modes)
     try:
         maneuver = load_maneuver(run)
     except InputError as reason:
         if run.endswith(".toml"):
             raise
-        allowed = f"allowed: trim, {', '.join(SHIPPED)}, or the path of a manoeuvre file (.toml)"
+        allowed = f"allowed: trim, modes, {', '.join(SHIPPED)}, or the path of a manoeuvre file (.toml)"
         raise InputError.of("run", run, allowed) from reason
     return FlightRun(chosen, condition, maneuver, revolutions, integrator)

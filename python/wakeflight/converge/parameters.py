@@ -156,9 +156,11 @@ def tightened(chosen: Parameter, inflow: InflowModel) -> InflowModel:
     return replace(inflow, inflow_tolerance=tolerance, max_loops=max(inflow.max_loops, 100))
 
 
-def check_run(chosen: Parameter, flight: bool, inflow: InflowModel) -> None:
-    """Refuse a parameter that the run does not have."""
-    if not flight and (chosen.part == "flight" or chosen.name == "convergence-revolutions"):
+def check_run(chosen: Parameter, run: str, inflow: InflowModel) -> None:
+    """Refuse a parameter that the run does not have; run: `trim`, `modes`, anything else is a flight."""
+    if run == "modes" and chosen.name != "elements":
+        raise InputError.of("vary", chosen.name, "not a discretisation of the blade's modes; allowed: elements")
+    if run == "trim" and (chosen.part == "flight" or chosen.name == "convergence-revolutions"):
         raise InputError.of("vary", chosen.name, "not a discretisation of a trim: choose a manoeuvre")
     if chosen.name == "convergence-revolutions" and not isinstance(inflow, TimeMarchingWake):
         raise InputError.of("vary", chosen.name, f"not an option of inflow {inflow.name}")

@@ -14,6 +14,7 @@ from ..flight import Flight, flown_steps, fly
 from ..inflow import DynamicInflow, trim_model
 from ..maneuvers import Maneuver
 from ..model import Model
+from ..modes import blade_modes
 from ..progress import Progress, Silent
 from ..trim import Trim, trim
 from ..trim_results import HORSEPOWER, first_harmonics
@@ -143,6 +144,29 @@ class TrimRun:
     def outcome(self, case: Case, progress: Progress | Silent) -> Outcome:
         """Values of the trim."""
         return self.trimming.start(case, case.inflow, progress)[1]
+
+
+class ModesRun:
+    """Frequencies of the rotating blade's modes: the finite elements alone."""
+
+    def __init__(self, n_modes: int):
+        self.n_modes = n_modes
+        self.quantities = tuple(Quantity(f"mode_{i}", "1/rev") for i in range(1, n_modes + 1))
+
+    @property
+    def title(self) -> str:
+        """What is run."""
+        return "blade modes"
+
+    def check(self, case: Case) -> None:
+        """As many modes as the elements can carry."""
+        blade_modes(case.aircraft, self.n_modes, case.aircraft.discretisation.n_elements)
+
+    def outcome(self, case: Case, progress: Progress | Silent) -> Outcome:
+        """Frequencies per revolution, ascending."""
+        clock = _Clock()
+        found = blade_modes(case.aircraft, self.n_modes, case.aircraft.discretisation.n_elements)
+        return Outcome(found.frequencies[None, :], np.zeros(1), *clock.read())
 
 
 class FlightRun:

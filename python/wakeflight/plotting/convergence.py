@@ -41,6 +41,14 @@ def _title(study: xr.Dataset) -> str:
 
 
 def _values(study: xr.Dataset) -> Figure:
+    if "power" not in study["quantity"]:
+        drawn = style.blank(3.2)
+        axes = drawn.subplots()
+        names = [str(name) for name in study["quantity"].values]
+        _curves(axes, study, "error", names, np.ones(len(names)))
+        axes.set_ylabel(f"error [{study['unit'].values[0]}]")
+        _finish([axes], [axes], study)
+        return drawn
     drawn = style.blank(5.2)
     grid = drawn.subplots(2, 2, sharex=True)
     for axes, (label, names) in zip(grid.ravel(), GROUPS_OF_A_TRIM, strict=True):
