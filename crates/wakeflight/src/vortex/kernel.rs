@@ -1,15 +1,15 @@
 //! The sum over segments, several points at a time.
+//!
+//! No closure and no iterator adapter touches a vector: such functions do not inherit the instruction set of their
+//! caller, and one that is compiled on its own costs ten times the arithmetic.
 
-use super::lanes::Lanes;
+use super::lanes::{LEAST_SQUARE, Lanes};
 use super::models::{Model, Seen};
 use super::roots::{Exact, Roots};
 use super::strands::{Piece, Strands};
 use pulp::bytemuck::{cast_slice, cast_slice_mut};
 use pulp::{Simd, WithSimd};
 use std::marker::PhantomData;
-
-/// Keeps roots and reciprocals finite where everything vanishes; reached below lengths of 1e-18 m only.
-const LEAST_SQUARE: f64 = 1e-300;
 
 /// A sum over segments at some points, for one core model and distance.
 pub(super) struct Sum<'a, M, const TO_SEGMENT: bool> {
@@ -95,7 +95,8 @@ fn over_sources<S: Simd, R: Roots<S>, M: Model, const TO_SEGMENT: bool>(
 
 #[inline(always)]
 fn from_node<S: Simd, R: Roots<S>>(on: Lanes<S, R>, points: &Vectors<S>, node: &[f64; 3]) -> FromNode<S> {
-    let separation = [0, 1, 2].map(|axis| on.sub(points[axis], on.splat(node[axis])));
+    let node = splats(on, node);
+    let separation = [on.sub(points[0], node[0]), on.sub(points[1], node[1]), on.sub(points[2], node[2])];
     let distance_sq = dot(on, &separation, &separation);
     let distance = on.sqrt(on.max(distance_sq, on.splat(LEAST_SQUARE)));
     FromNode { separation, distance_sq, distance }
@@ -108,7 +109,23 @@ fn dot<S: Simd, R: Roots<S>>(on: Lanes<S, R>, a: &Vectors<S>, b: &Vectors<S>) ->
 
 #[inline(always)]
 fn cross<S: Simd, R: Roots<S>>(on: Lanes<S, R>, a: &Vectors<S>, b: &Vectors<S>) -> Vectors<S> {
-    [(1, 2), (2, 0), (0, 1)].map(|(i, j)| on.sub_mul(on.mul(a[i], b[j]), a[j], b[i]))
+    [
+        on.sub_mul(on.mul(a[1], b[2]), a[2], b[1]),
+        on.sub_mul(on.mul(a[2], b[0]), a[0], b[2]),
+        on.sub_mul(on.mul(a[0], b[1]), a[1], b[0]),
+    ]
+}
+
+/// The same vector for all points.
+#[inline(always)]
+fn splats<S: Simd, R: Roots<S>>(on: Lanes<S, R>, a: &[f64; 3]) -> Vectors<S> {
+    [on.splat(a[0]), on.splat(a[1]), on.splat(a[2])]
+}
+
+/// Square root of the softened square of a distance.
+#[inline(always)]
+fn softened<S: Simd, R: Roots<S>>(on: Lanes<S, R>, square: S::f64s, core_sq: S::f64s) -> S::f64s {
+    on.sqrt(on.max(on.add(square, core_sq), on.splat(LEAST_SQUARE)))
 }
 
 /// Adds circulation / (4 pi) (r1 + r2) / (r1 r2) s F / |c|^2 c, as in `segment_velocity`, under one reciprocal root.
@@ -120,8 +137,7 @@ fn add_piece<S: Simd, R: Roots<S>, M: Model, const TO_SEGMENT: bool>(
     piece: &Piece,
     sum: &mut Vectors<S>,
 ) {
-    let along = piece.along.map(|x| on.splat(x));
-    let cross = cross(on, &along, &from_start.separation);
+    let cross = cross(on, &splats(on, &piece.along), &from_start.separation);
     let mut cross_sq = dot(on, &cross, &cross);
     let mut d = dot(on, &from_start.separation, &from_end.separation);
     let (mut r1, mut r2) = (from_start.distance, from_end.distance);
@@ -131,8 +147,8 @@ fn add_piece<S: Simd, R: Roots<S>, M: Model, const TO_SEGMENT: bool>(
     let (mut area, mut area_sq) = (on.splat(piece.area), on.splat(piece.area_sq));
     if M::SOFTENED {
         let core_sq = on.splat(piece.core_sq);
-        let soft = |square| on.sqrt(on.max(on.add(square, core_sq), on.splat(LEAST_SQUARE)));
-        (r1, r2) = (soft(from_start.distance_sq), soft(from_end.distance_sq));
+        r1 = softened(on, from_start.distance_sq, core_sq);
+        r2 = softened(on, from_end.distance_sq, core_sq);
         product = on.mul(r1, r2);
         d = on.add(d, core_sq);
         cross_sq = on.add(cross_sq, area);
@@ -150,13 +166,13 @@ fn add_piece<S: Simd, R: Roots<S>, M: Model, const TO_SEGMENT: bool>(
     let ahead = on.greater(d, on.splat(0.0));
     let above = on.select(ahead, cross_sq, width);
     let below = on.mul(product, on.select(ahead, width, on.splat(1.0)));
-    let core = M::denominator_sq(on, Seen { cross_sq, area, area_sq });
-    let square = on.mul(on.mul(below, below), core);
+    let seen = Seen { cross_sq, area, area_sq };
+    let square = on.mul(on.mul(below, below), M::denominator_sq(on, seen));
     let inverse = on.reciprocal_sqrt(on.max(square, on.splat(LEAST_SQUARE)));
 
-    let strength = on.mul(on.splat(piece.strength), on.add(r1, r2));
+    let strength = on.mul(on.mul(on.splat(piece.strength), on.add(r1, r2)), M::factor(on, seen));
     let weight = on.select(on_end, on.splat(0.0), on.mul(on.mul(strength, above), inverse));
-    for (total, c) in sum.iter_mut().zip(cross) {
-        *total = on.mul_add(weight, c, *total);
+    for axis in 0..3 {
+        sum[axis] = on.mul_add(weight, cross[axis], sum[axis]);
     }
 }

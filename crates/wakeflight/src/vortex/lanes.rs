@@ -2,7 +2,9 @@
 
 use super::roots::Roots;
 use pulp::Simd;
-use pulp::bytemuck::{cast_slice, cast_slice_mut};
+
+/// Keeps roots and quotients finite where everything vanishes; reached below lengths of 1e-18 m only.
+pub(super) const LEAST_SQUARE: f64 = 1e-300;
 
 /// Operations on vectors of `S`, with roots by `R`.
 #[derive(Clone, Copy)]
@@ -82,16 +84,5 @@ impl<S: Simd, R: Roots<S>> Lanes<S, R> {
     #[inline(always)]
     pub fn reciprocal_sqrt(self, a: S::f64s) -> S::f64s {
         self.roots.reciprocal_sqrt(self, a)
-    }
-    /// Any function of two numbers, one point after the other.
-    #[inline(always)]
-    pub fn each(self, a: S::f64s, b: S::f64s, f: impl Fn(f64, f64) -> f64) -> S::f64s {
-        let mut result = a;
-        let others: &[f64] = cast_slice(std::slice::from_ref(&b));
-        let own: &mut [f64] = cast_slice_mut(std::slice::from_mut(&mut result));
-        for (x, y) in own.iter_mut().zip(others) {
-            *x = f(*x, *y);
-        }
-        result
     }
 }

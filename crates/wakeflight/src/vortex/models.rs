@@ -1,11 +1,12 @@
 //! Core models as denominators of the segment law, several points at a time.
 
 use super::core::LAMB_OSEEN_ALPHA;
-use super::lanes::Lanes;
+use super::lanes::{LEAST_SQUARE, Lanes};
 use super::roots::Roots;
 use pulp::Simd;
 
 /// What a core sees of a segment, for several points; r_c: core radius, L: |c| over the core distance.
+#[derive(Clone, Copy)]
 pub(super) struct Seen<S: Simd> {
     /// |c|^2, with r_c^2 length^2 added for a softened kernel.
     pub cross_sq: S::f64s,
@@ -15,12 +16,17 @@ pub(super) struct Seen<S: Simd> {
     pub area_sq: S::f64s,
 }
 
-/// A core model: |c|^2 / F, squared, F being the factor on the singular law.
+/// A core model: |c|^2 / F, squared, F being the factor on the singular law, without branches.
 pub(super) trait Model: Copy + Send + Sync {
     /// Whether the core radius softens the distance in the kernel itself.
     const SOFTENED: bool = false;
     /// (|c|^2 / F)^2 for every point.
     fn denominator_sq<S: Simd, R: Roots<S>>(on: Lanes<S, R>, seen: Seen<S>) -> S::f64s;
+    /// What is left of F where that denominator does not hold all of it.
+    #[inline(always)]
+    fn factor<S: Simd, R: Roots<S>>(on: Lanes<S, R>, _: Seen<S>) -> S::f64s {
+        on.splat(1.0)
+    }
 }
 
 /// F = 1.
@@ -73,25 +79,54 @@ impl Model for Rankine {
 }
 
 impl Model for LambOseen {
+    /// |c|^2 / F = (scale / alpha) area / D, or |c|^2 where the core ends.
     #[inline(always)]
     fn denominator_sq<S: Simd, R: Roots<S>>(on: Lanes<S, R>, seen: Seen<S>) -> S::f64s {
-        // no vector exponential: one point after the other
-        let denominator = on.each(seen.cross_sq, seen.area, gaussian_denominator);
+        let inside = on.mul(on.splat(DOUBLED / LAMB_OSEEN_ALPHA), seen.area);
+        let outside = on.mul(on.splat(DOUBLED / CORE_END), seen.cross_sq);
+        let denominator = on.max(inside, outside);
         on.mul(denominator, denominator)
+    }
+
+    /// D = F / y, y = alpha q^2 / 2^7 limited to the end of the core.
+    ///
+    /// u = 1 - exp(-y) is y times a series, and 1 - exp(-2 y) = u (2 - u): seven times, without cancellation.
+    #[inline(always)]
+    fn factor<S: Simd, R: Roots<S>>(on: Lanes<S, R>, seen: Seen<S>) -> S::f64s {
+        let area = on.max(seen.area, on.splat(LEAST_SQUARE));
+        let exponent = on.mul(on.splat(LAMB_OSEEN_ALPHA / DOUBLED), on.div(seen.cross_sq, area));
+        let y = on.min(exponent, on.splat(CORE_END / DOUBLED));
+        // even and odd powers apart: half the wait of one chain
+        let y_sq = on.mul(y, y);
+        let (mut even, mut odd) = (on.splat(SERIES[10]), on.splat(SERIES[11]));
+        for n in (0..10).step_by(2).rev() {
+            even = on.mul_add(even, y_sq, on.splat(SERIES[n]));
+            odd = on.mul_add(odd, y_sq, on.splat(SERIES[n + 1]));
+        }
+        let mut d = on.mul_add(odd, y, even);
+        for _ in 0..DOUBLINGS {
+            d = on.mul(d, on.sub_mul(on.splat(2.0), y, d));
+        }
+        d
     }
 }
 
-/// |c|^2 / (1 - exp(-alpha |c|^2 / area)), with its limit area / alpha on the axis.
-fn gaussian_denominator(cross_sq: f64, area: f64) -> f64 {
-    let exponent = LAMB_OSEEN_ALPHA * cross_sq;
-    if exponent > 40.0 * area {
-        cross_sq
-    } else if exponent <= 1e-17 * area {
-        area / LAMB_OSEEN_ALPHA
-    } else {
-        cross_sq / -(-exponent / area).exp_m1()
+/// alpha q^2 from which on 1 - exp(-alpha q^2) is 1 to rounding.
+const CORE_END: f64 = 40.0;
+/// Times the exponent is halved for the series.
+const DOUBLINGS: usize = 7;
+/// 2^7.
+const DOUBLED: f64 = 128.0;
+/// (1 - exp(-y)) / y = sum of (-y)^n / (n + 1)!, the first term left out is below rounding.
+const SERIES: [f64; 12] = {
+    let mut coefficients = [1.0; 12];
+    let mut n = 1;
+    while n < 12 {
+        coefficients[n] = -coefficients[n - 1] / (n as f64 + 1.0);
+        n += 1;
     }
-}
+    coefficients
+};
 
 impl Model for RosenheadMoore {
     const SOFTENED: bool = true;
