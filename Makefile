@@ -32,13 +32,14 @@ test: $(STAMPS)/dev
 	cargo clippy $(CARGO_FLAGS) --workspace --all-targets --quiet -- -D warnings -D missing_docs
 	cargo test $(CARGO_FLAGS) --package wakeflight --quiet
 	@$(MAKE) --no-print-directory $(STAMPS)/package
-	$(BIN)/ruff check python tests
-	$(BIN)/ruff format --check python tests
+	$(BIN)/ruff check python tests validation
+	$(BIN)/ruff format --check python tests validation
 	$(BIN)/python -m pytest -m "not slow"
 
 validate: $(STAMPS)/dev $(STAMPS)/package
 	cargo test $(CARGO_FLAGS) --package wakeflight --quiet -- --ignored
 	$(BIN)/python -m pytest -m slow
+	$(BIN)/wakeflight validate
 
 clean:
 	rm -rf $(VENV) target runs .pytest_cache .ruff_cache .mypy_cache .hypothesis

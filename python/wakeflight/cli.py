@@ -292,6 +292,39 @@ def converge(
         raise NumericalFailure("; ".join(study.failures))
 
 
+@app.command()
+def validate(
+    names: Annotated[
+        list[str] | None, typer.Argument(metavar="[CASE]...", help="H01, a folder's name, a group, exact, measured")
+    ] = None,
+    cases: Annotated[Path | None, typer.Option("--cases", help="folder of cases; validation/ of the checkout")] = None,
+    fast: Annotated[bool, typer.Option("--fast", help="leave out cases marked slow")] = False,
+    threads: Threads = None,
+    out: Out = None,
+) -> None:
+    """Run reference cases, write a page with figure and score for each; exit code 3 where the program is wrong."""
+    from . import validate as checking
+    from .validate import page
+
+    _set_threads(threads)
+    chosen = checking.select(checking.cases(checking.cases_folder(cases)), names or [])
+    if fast:
+        chosen = [case for case in chosen if not case.slow]
+    folder = _folder(_writable(out or Path("runs/validation")))
+    print(f"{'case':<8}{'verdict':<16}{'within':>8}{'s':>8}  title")
+
+    def line(result: checking.Result) -> None:
+        score = f"{result.n_within}/{len(result.gated)}" if result.gated else ""
+        text = result.case.title if result.failure is None else f"{result.case.title}: {result.failure}"
+        print(f"{result.case.id:<8}{result.verdict:<16}{score:>8}{result.seconds:>8.1f}  {text}", flush=True)
+
+    results = checking.run_all(chosen, folder, line)
+    print(f"wrote {page.write(results, folder / 'index.html')}")
+    broken = [result.case.id for result in results if result.broken]
+    if broken:
+        raise NumericalFailure(f"outside the tolerance of an exact case, or not run: {', '.join(broken)}")
+
+
 def _not_yet(name: str) -> None:
     def command() -> None:
         raise InputError(f"not in this version yet: {name}")
@@ -301,7 +334,7 @@ def _not_yet(name: str) -> None:
     app.command(name, context_settings=ignore, add_help_option=True)(command)
 
 
-for _name in ("tunnel", "validate", "paper"):
+for _name in ("tunnel", "paper"):
     _not_yet(_name)
 
 

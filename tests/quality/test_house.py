@@ -39,7 +39,7 @@ PYTHON_ORDER = (
     {"linearize", "sweep", "converge"},
     {"plotting", "export"},
     {"report"},
-    {"validation", "paper"},
+    {"validate", "paper"},
     {"cli"},
     {"__main__"},
 )
