@@ -1,5 +1,6 @@
 //! The aircraft: F, its Jacobian, trim equations, exchange with the wake, outputs.
 
+use crate::rotor::{motion, rotor_constants};
 use numpy::ndarray::Array;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
 use numpy::{PyReadwriteArray1, PyReadwriteArray2};
@@ -7,14 +8,14 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::f64::consts::TAU;
-use wakeflight::aircraft::circulation::BladeInstant;
 use wakeflight::aircraft::data::AircraftData;
 use wakeflight::aircraft::model::{Aircraft, HeldInflow, Inputs};
 use wakeflight::aircraft::trim::{Convention, TrimInflow, TrimProblem};
 use wakeflight::blade::aerodynamics::Air;
 use wakeflight::blade::model::Discretisation;
 use wakeflight::numerics::frames::{Hub, Vec3};
-use wakeflight::wake::{BladeState, HubMotion as WakeHub, WakeOptions, near_wake_matrix};
+use wakeflight::rotor::circulation::BladeInstant;
+use wakeflight::wake::WakeOptions;
 
 fn invalid(error: impl std::fmt::Display) -> PyErr {
     PyValueError::new_err(error.to_string())
@@ -142,29 +143,7 @@ impl PyAircraft {
 
     /// Constants of the rotor that the coupling and the results need.
     fn rotor<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let (r, d) = (&self.inner.rotor, PyDict::new(py));
-        d.set_item("omega", r.omega)?;
-        d.set_item("radius", r.blade.radius)?;
-        d.set_item("hinge_offset", r.hinge())?;
-        d.set_item("n_blades", r.n_blades)?;
-        d.set_item("flap_mode", r.blade.flap_mode)?;
-        d.set_item("flap_per_coordinate", self.inner.flap_per_coordinate())?;
-        d.set_item("blade_mass", r.blade.mass)?;
-        d.set_item("stations", r.blade.stations.iter().map(|s| s.shapes.x).collect::<Vec<_>>())?;
-        d.set_item("widths", r.blade.stations.iter().map(|s| s.geometry.width).collect::<Vec<_>>())?;
-        d.set_item("chords", r.blade.stations.iter().map(|s| s.geometry.chord).collect::<Vec<_>>())?;
-        let modes = 0..r.blade.n_modes;
-        d.set_item("frequencies", r.blade.modes.frequency[modes.clone()].to_vec())?;
-        d.set_item(
-            "angle_per_coordinate",
-            modes.map(|i| self.inner.angle_per_coordinate(i)).collect::<Vec<_>>(),
-        )?;
-        d.set_item("tip_flap", r.blade.tip.w[0][..r.blade.n_modes].to_vec())?;
-        d.set_item("tip_lead", r.blade.tip.v[0][..r.blade.n_modes].to_vec())?;
-        d.set_item("tip_twist", r.blade.tip.theta[..r.blade.n_modes].to_vec())?;
-        d.set_item("root_flap_slope", r.blade.root.w[1][..r.blade.n_modes].to_vec())?;
-        d.set_item("root_lead_slope", r.blade.root.v[1][..r.blade.n_modes].to_vec())?;
-        Ok(d)
+        rotor_constants(py, &self.inner.rotor)
     }
 
     /// F into `out`.
@@ -324,7 +303,6 @@ impl PyAircraft {
         let options: WakeOptions = serde_json::from_str(wake_options).map_err(invalid)?;
         let y = y.as_slice()?;
         let hub = self.inner.hub_motion(y, &vec![0.0; y.len()]);
-        let wake_hub = WakeHub { velocity: hub.velocity.array(), rates: hub.omega.array() };
         let inputs = Inputs {
             stick,
             stick_rate,
@@ -332,29 +310,26 @@ impl PyAircraft {
             inflow: HeldInflow::Dynamic,
             stabilator_incidence: 0.0,
         };
-        let (psi, q, q_dot) = (psi.as_slice()?, q.as_array(), q_dot.as_array());
-        let (far, start) = (lambda_far.as_array(), start.as_array());
-        let n = far.ncols();
-        let (mut gamma, mut inflow) = (Vec::with_capacity(far.len()), Vec::with_capacity(far.len()));
-        let (mut worst, mut failed) = (0.0f64, 0);
-        for (i, &azimuth) in psi.iter().enumerate() {
-            let modal = motion(q.row(i).iter().copied(), q_dot.row(i).iter().copied());
-            let (flap, lead) = self.inner.rotor.equivalent_angles(&modal);
-            let matrix = near_wake_matrix(&options, &wake_hub, &BladeState { psi: azimuth, flap, lead })
-                .map_err(invalid)?;
-            let blade =
-                BladeInstant { psi: azimuth, modal, control: self.inner.blade_pitch(&inputs, 0.0, azimuth) };
-            let solution = self
-                .inner
-                .blade_circulation(&hub, &blade, &far.row(i).to_vec(), &matrix, &start.row(i).to_vec())
-                .map_err(|e| pyo3::exceptions::PyArithmeticError::new_err(e.to_string()))?;
-            worst = worst.max(solution.residual);
-            failed += usize::from(!solution.converged);
-            gamma.extend(solution.gamma);
-            inflow.extend(solution.inflow);
-        }
-        let shape = |v| Array::from_shape_vec((psi.len(), n), v).map_err(invalid);
-        Ok((shape(gamma)?.into_pyarray(py), shape(inflow)?.into_pyarray(py), worst, failed))
+        let (q, q_dot) = (q.as_array(), q_dot.as_array());
+        let instants: Vec<BladeInstant> = psi
+            .as_slice()?
+            .iter()
+            .enumerate()
+            .map(|(i, &psi)| BladeInstant {
+                psi,
+                modal: motion(q.row(i).iter().copied(), q_dot.row(i).iter().copied()),
+                control: self.inner.blade_pitch(&inputs, 0.0, psi),
+            })
+            .collect();
+        let n = lambda_far.as_array().ncols();
+        let far: Vec<f64> = lambda_far.as_array().iter().copied().collect();
+        let start: Vec<f64> = start.as_array().iter().copied().collect();
+        let all = py
+            .detach(|| self.inner.rotor.circulations(self.inner.air, &options, &hub, &instants, &far, &start))
+            .map_err(|e| pyo3::exceptions::PyArithmeticError::new_err(e.to_string()))?;
+        let shape = |v| Array::from_shape_vec((instants.len(), n), v).map_err(invalid);
+        let (gamma, inflow) = (shape(all.gamma)?, shape(all.inflow)?);
+        Ok((gamma.into_pyarray(py), inflow.into_pyarray(py), all.residual, all.not_converged))
     }
 
     /// Circulation [m2/s] of one blade's sections and its slope by inflow, for inflow (n_stations,).
@@ -390,7 +365,7 @@ impl PyAircraft {
         };
         let lambda = inflow.as_slice()?;
         let (mut gamma, mut slope) = (vec![0.0; lambda.len()], vec![0.0; lambda.len()]);
-        self.inner.section_circulation(&hub, &blade, lambda, &mut gamma, &mut slope);
+        self.inner.rotor.section_circulation(self.inner.air, &hub, &blade, lambda, &mut gamma, &mut slope);
         Ok((gamma.into_pyarray(py), slope.into_pyarray(py)))
     }
 
@@ -432,17 +407,6 @@ impl PyAircraft {
         }
         Ok(d)
     }
-}
-
-fn motion(
-    q: impl Iterator<Item = f64>,
-    q_dot: impl Iterator<Item = f64>,
-) -> wakeflight::blade::kinematics::ModalMotion<f64> {
-    let zero = [0.0; wakeflight::blade::MAX_MODES];
-    let mut m = wakeflight::blade::kinematics::ModalMotion { q: zero, q_dot: zero, q_ddot: zero };
-    m.q.iter_mut().zip(q).for_each(|(a, b)| *a = b);
-    m.q_dot.iter_mut().zip(q_dot).for_each(|(a, b)| *a = b);
-    m
 }
 
 /// Registers the classes of this file.

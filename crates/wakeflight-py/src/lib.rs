@@ -4,6 +4,8 @@ use pyo3::prelude::*;
 mod aircraft;
 mod atmosphere;
 mod blade;
+mod rotor;
+mod stand;
 mod vortex;
 mod wake;
 
@@ -14,6 +16,7 @@ fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
     atmosphere::register(m)?;
     aircraft::register(m)?;
     blade::register(m)?;
+    stand::register(m)?;
     vortex::register(m)?;
     wake::register(m)?;
     Ok(())

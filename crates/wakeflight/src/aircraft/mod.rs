@@ -1,5 +1,4 @@
 //! The whole aircraft: F(y_dot, y, u, t) = 0, its Jacobian, its trim, its exchange with the wake.
-pub mod circulation;
 pub mod data;
 pub mod jacobian;
 pub mod model;

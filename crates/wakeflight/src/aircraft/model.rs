@@ -7,7 +7,7 @@ use crate::airframe::mass::MassError;
 use crate::blade::aerodynamics::Air;
 use crate::blade::error::BladeError;
 use crate::blade::kinematics::PitchMotion;
-use crate::blade::model::{Blade, Discretisation};
+use crate::blade::model::Discretisation;
 use crate::inflow::pitt_peters::PittPeters;
 use crate::numerics::scalar::Real;
 use crate::rotor::hub::Rotor;
@@ -93,10 +93,10 @@ impl Aircraft {
     ) -> Result<Self, AircraftError> {
         let r = &data.rotor;
         let tip_loss_factor = if free_wake { 1.0 } else { r.tip_loss_factor };
-        let blade = Blade::new(&r.blade, r.omega, tip_loss_factor, discretisation)?;
+        let rotor = Rotor::new(r, data.rigging.clone(), tip_loss_factor, discretisation)?;
         let layout = Layout {
             n_blades: r.n_blades,
-            n_modes: blade.n_modes,
+            n_modes: rotor.blade.n_modes,
             dynamic_inflow: !free_wake,
             tail_rotor: data.tail_rotor.is_some(),
         };
@@ -110,17 +110,7 @@ impl Aircraft {
             interference: data.interference.clone(),
             accessory_power: data.accessory_power,
         };
-        let airframe = Airframe::new(parts, r.position, r.n_blades, blade.mass)?;
-        let rotor = Rotor {
-            blade,
-            n_blades: r.n_blades,
-            airfoil: r.airfoil.clone(),
-            lag_damper: r.lag_damper.clone(),
-            rigging: data.rigging.clone(),
-            omega: r.omega,
-            position: r.position,
-            shaft_tilt: [r.shaft_tilt_forward, r.shaft_tilt_lateral],
-        };
+        let airframe = Airframe::new(parts, r.position, r.n_blades, rotor.blade.mass)?;
         Ok(Self { rotor, airframe, pitt_peters: PittPeters::default(), air, gravity, layout })
     }
 

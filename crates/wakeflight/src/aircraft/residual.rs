@@ -127,18 +127,12 @@ impl Aircraft {
         let (mut cosine, mut sine) = (S::zero(), S::zero());
         for b in 0..n {
             let flap =
-                y[self.layout.modal(b).start + self.rotor.blade.flap_mode] * self.flap_per_coordinate();
+                y[self.layout.modal(b).start + self.rotor.blade.flap_mode] * self.rotor.flap_per_coordinate();
             let (s, c) = self.rotor.azimuth(self.rotor.omega * t, b).sin_cos();
             cosine += flap * (2.0 * c / n as f64);
             sine += flap * (2.0 * s / n as f64);
         }
         [cosine, sine]
-    }
-
-    /// Tip deflection of the first flap mode over R - e, per modal coordinate.
-    pub fn flap_per_coordinate(&self) -> f64 {
-        let blade = &self.rotor.blade;
-        blade.tip.w[0][blade.flap_mode] / (blade.radius - self.rotor.hinge())
     }
 
     /// Mean inflow that the airframe feels: the state, or the disk mean of the wake.
@@ -303,14 +297,6 @@ impl Aircraft {
 
     /// C_T, C_L (right side down +), C_M (nose up +) of the air loads.
     pub fn aero_coefficients<S: Real>(&self, rotor: &RotorLoads<S>) -> [S; 3] {
-        let radius = self.rotor.blade.radius;
-        let scale = 1.0
-            / (self.air.density * std::f64::consts::PI * radius * radius * self.rotor.tip_speed().powi(2));
-        // hub axes, x aft and y right: right side down is a moment about -x, nose up about +y
-        [
-            rotor.aero_force.z * scale,
-            -(rotor.aero_moment.x * (scale / radius)),
-            rotor.aero_moment.y * (scale / radius),
-        ]
+        self.rotor.aero_coefficients(self.air, rotor.aero_force, rotor.aero_moment)
     }
 }

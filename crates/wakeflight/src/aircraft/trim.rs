@@ -7,11 +7,13 @@
 use super::model::{Aircraft, HeldInflow, Inputs};
 use super::residual::RotorLoads;
 use super::state::Layout;
-use crate::blade::MAX_MODES;
 use crate::blade::kinematics::{ModalMotion, PitchMotion};
 use crate::blade::loads::{BladeInflow, BladeLoads};
 use crate::numerics::frames::{Vec3, quaternion, rot_ib};
-use crate::numerics::scalar::{Dual, Real};
+use crate::numerics::jacobian::dense_jacobian;
+use crate::numerics::scalar::Real;
+use crate::rotor::periodic::Harmonics;
+use crate::rotor::swashplate::PitchSeries;
 
 /// What fixes the lateral degree of freedom.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -77,9 +79,17 @@ impl TrimLayout {
     pub fn tail_inflow(&self) -> usize {
         7 + if self.dynamic_inflow { 3 } else { 0 }
     }
+    /// Blade motion.
+    pub fn harmonics(&self) -> Harmonics {
+        Harmonics {
+            start: self.tail_inflow() + usize::from(self.tail_rotor),
+            n_modes: self.n_modes,
+            n_harmonics: self.n_harmonics,
+        }
+    }
     /// Mean, cosines, sines of mode `i`: 1 + 2 n_harmonics unknowns.
     pub fn mode(&self, i: usize) -> usize {
-        self.tail_inflow() + usize::from(self.tail_rotor) + i * (1 + 2 * self.n_harmonics)
+        self.harmonics().mode(i)
     }
     /// Number of unknowns.
     pub fn len(&self) -> usize {
@@ -101,18 +111,10 @@ impl TrimLayout {
         if self.tail_rotor {
             names.push("tail_rotor_inflow".into());
         }
-        for i in 0..self.n_modes {
-            names.push(format!("mode_{i}_mean"));
-            for k in 1..=self.n_harmonics {
-                names.push(format!("mode_{i}_cos_{k}"));
-                names.push(format!("mode_{i}_sin_{k}"));
-            }
-        }
+        names.extend(self.harmonics().equations());
         names
     }
 }
-
-const LANES: usize = 10;
 
 impl Aircraft {
     /// Layout of the trim unknowns.
@@ -127,22 +129,7 @@ impl Aircraft {
 
     /// Modal coordinate, rate and acceleration at azimuth `psi` from the harmonics in `x`.
     pub fn periodic_motion<S: Real>(&self, layout: &TrimLayout, x: &[S], psi: f64) -> ModalMotion<S> {
-        let omega = self.rotor.omega;
-        let zero = [S::zero(); MAX_MODES];
-        let mut m = ModalMotion { q: zero, q_dot: zero, q_ddot: zero };
-        for i in 0..self.layout.n_modes {
-            let start = layout.mode(i);
-            m.q[i] = x[start];
-            for k in 1..=layout.n_harmonics {
-                let (s, c) = (k as f64 * psi).sin_cos();
-                let w = k as f64 * omega;
-                let (a, b) = (x[start + 2 * k - 1], x[start + 2 * k]);
-                m.q[i] += a * c + b * s;
-                m.q_dot[i] += (b * c - a * s) * w;
-                m.q_ddot[i] -= (a * c + b * s) * (w * w);
-            }
-        }
-        m
+        layout.harmonics().motion(x, psi, self.rotor.omega)
     }
 
     /// Body velocity and rates for attitude unknowns in `x`, as the first six states with the attitude behind them.
@@ -184,48 +171,10 @@ impl Aircraft {
         let hub = self.hub_motion(&y, &y_dot);
         let pitch = self.rotor.rigging.pitch(stick);
 
-        // one blade all the way round
-        let n = problem.n_azimuths;
-        let mut mean = BladeLoads {
-            modal: [S::zero(); MAX_MODES],
-            force: Vec3::zero(),
-            moment: Vec3::zero(),
-            aero_force: Vec3::zero(),
-            aero_moment: Vec3::zero(),
-        };
-        for row in &mut f[layout.mode(0)..] {
-            *row = S::zero();
-        }
-        for l in 0..n {
-            let psi = std::f64::consts::TAU * l as f64 / n as f64;
-            let modal = self.periodic_motion(&layout, x, psi);
-            let control = self.cyclic_pitch(&pitch, psi);
-            let loads = self.rotor.blade_loads(
-                self.air,
-                &hub,
-                psi,
-                &modal,
-                &control,
-                &self.trim_blade_inflow(problem, &y, l),
-            );
-            let share = self.rotor.n_blades as f64 / n as f64;
-            mean.force += loads.force.scaled(share);
-            mean.moment += loads.moment.scaled(share);
-            mean.aero_force += loads.aero_force.scaled(share);
-            mean.aero_moment += loads.aero_moment.scaled(share);
-            for i in 0..self.layout.n_modes {
-                let start = layout.mode(i);
-                let residual = loads.modal[i] / n as f64;
-                f[start] += residual * self.angle_per_modal_force(i, 0);
-                for k in 1..=layout.n_harmonics {
-                    let (s, c) = (k as f64 * psi).sin_cos();
-                    let angle = 2.0 * self.angle_per_modal_force(i, k);
-                    f[start + 2 * k - 1] += residual * (c * angle);
-                    f[start + 2 * k] += residual * (s * angle);
-                }
-            }
-        }
-
+        let given =
+            |l: usize, psi: f64| (self.cyclic_pitch(&pitch, psi), self.trim_blade_inflow(problem, &y, l));
+        let mean =
+            self.rotor.revolution(self.air, &hub, &layout.harmonics(), x, problem.n_azimuths, given, f);
         self.trim_balances(problem, &layout, x, &mut y, &mean, f);
     }
 
@@ -243,7 +192,7 @@ impl Aircraft {
         // the first harmonic of the flap mode is what the blades share as beta_1c
         let flap = layout.mode(self.rotor.blade.flap_mode);
         let beta_1c =
-            if layout.n_harmonics > 0 { x[flap + 1] * self.flap_per_coordinate() } else { S::zero() };
+            if layout.n_harmonics > 0 { x[flap + 1] * self.rotor.flap_per_coordinate() } else { S::zero() };
         let mean_inflow = match &problem.inflow {
             TrimInflow::Dynamic => x[layout.inflow()],
             TrimInflow::Map { mean, .. } => S::cst(*mean),
@@ -310,32 +259,10 @@ impl Aircraft {
         )
     }
 
-    /// Equivalent angle of a harmonic modal force: the answer of the mode at k per revolution, its tip (or twist) as an angle.
-    ///
-    /// angle/max(omega_i^2, |omega_i^2 - (k Omega)^2|): static below and near resonance.
-    pub fn angle_per_modal_force(&self, i: usize, k: usize) -> f64 {
-        let stiffness = self.rotor.blade.modes.frequency[i].powi(2);
-        let dynamic = (stiffness - (k as f64 * self.rotor.omega).powi(2)).abs();
-        self.angle_per_coordinate(i) / stiffness.max(dynamic)
-    }
-
-    /// Largest tip deflection over R - e, or tip twist, per unit of modal coordinate `i`.
-    pub fn angle_per_coordinate(&self, i: usize) -> f64 {
-        let blade = &self.rotor.blade;
-        let span = blade.radius - self.rotor.hinge();
-        (blade.tip.w[0][i].abs() / span).max(blade.tip.v[0][i].abs() / span).max(blade.tip.theta[i].abs())
-    }
-
     /// Blade pitch with exact rates for steady pitch controls (theta_1c, theta_1s, theta_0, theta_tr).
     fn cyclic_pitch<S: Real>(&self, pitch: &[S; 4], psi: f64) -> PitchMotion<S> {
-        let omega = self.rotor.omega;
-        let (s, c) = (psi + self.rotor.rigging.phase).sin_cos();
-        let cyclic = pitch[0] * c + pitch[1] * s;
-        PitchMotion {
-            theta: pitch[2] + cyclic,
-            theta_dot: (pitch[1] * c - pitch[0] * s) * omega,
-            theta_ddot: -(cyclic * (omega * omega)),
-        }
+        let series = PitchSeries { theta_0: pitch[2], theta_1c: pitch[0], theta_1s: pitch[1], higher: &[] };
+        series.at(psi + self.rotor.rigging.phase, self.rotor.omega).into()
     }
 
     fn trim_blade_inflow<'a, S: Real>(
@@ -358,22 +285,7 @@ impl Aircraft {
 
     /// Exact Jacobian of the trim equations, row-major.
     pub fn trim_jacobian(&self, problem: &TrimProblem, x: &[f64], out: &mut [f64]) {
-        type D = Dual<LANES>;
-        let n = x.len();
-        let mut f = vec![D::zero(); n];
-        let mut column = 0;
-        while column < n {
-            let width = LANES.min(n - column);
-            let mut x_s: Vec<D> = x.iter().map(|&v| D::cst(v)).collect();
-            for lane in 0..width {
-                x_s[column + lane].eps[lane] = 1.0;
-            }
-            self.trim_residual(problem, &x_s, &mut f);
-            for (row, value) in f.iter().enumerate() {
-                out[row * n + column..row * n + column + width].copy_from_slice(&value.eps[..width]);
-            }
-            column += width;
-        }
+        dense_jacobian(x, |x, f| self.trim_residual(problem, x, f), out);
     }
 
     /// State and its rate at time `t` of the trimmed revolution; body accelerations and attitude rates are left at zero.

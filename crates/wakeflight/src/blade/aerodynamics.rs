@@ -40,6 +40,10 @@ pub struct SectionAir<S> {
     pub speed: S,
     /// Lift coefficient.
     pub cl: S,
+    /// Drag coefficient.
+    pub cd: S,
+    /// Moment coefficient about the quarter chord, nose up positive, without pitch-rate damping.
+    pub cm: S,
     /// Bound circulation, positive for upward lift [m2/s].
     pub circulation: S,
     /// Force of the element at the quarter chord [N].
@@ -87,5 +91,6 @@ pub fn section_air<S: Real>(
         cm * speed * speed * (half_rho_c * station.chord * station.lift_width) + pitch_damping;
     let moment = t * about_quarter + c.cross(force) * S::cst(station.quarter);
 
-    SectionAir { alpha, mach, speed, cl, circulation: cl * speed * (0.5 * station.chord), force, moment }
+    let circulation = cl * speed * (0.5 * station.chord);
+    SectionAir { alpha, mach, speed, cl, cd, cm, circulation, force, moment }
 }

@@ -3,6 +3,7 @@
 use super::error::BladeError;
 use super::hermite;
 use super::section::{BladeProperties, Root};
+use nalgebra::DMatrix;
 
 /// Stations closer than this fraction of the radius are one.
 const SAME_STATION: f64 = 1e-9;
@@ -109,9 +110,27 @@ impl Mesh {
     pub fn free(&self, root: Root) -> Vec<usize> {
         let held = match root {
             Root::Hinged => vec![0, self.first_flap()],
+            Root::Flapping => vec![0, 1, self.first_flap()],
             Root::Clamped => vec![0, 1, self.first_flap(), self.first_flap() + 1],
         };
         (0..self.n_dof()).filter(|dof| !held.contains(dof)).collect()
+    }
+
+    /// Rigid turns about the hinges of `root`, lag before flap, one column each (n_dof, 0 to 2).
+    pub fn hinge_turns(&self, root: Root) -> DMatrix<f64> {
+        let firsts = match root {
+            Root::Hinged => vec![0, self.first_flap()],
+            Root::Flapping => vec![self.first_flap()],
+            Root::Clamped => vec![],
+        };
+        let mut turns = DMatrix::zeros(self.n_dof(), firsts.len());
+        for (column, first) in firsts.into_iter().enumerate() {
+            for i in 0..=self.n_elements {
+                turns[(first + 2 * i, column)] = self.node(i) - self.root;
+                turns[(first + 2 * i + 1, column)] = 1.0;
+            }
+        }
+        turns
     }
 
     /// Interpolation at station `x` [m]; beyond the ends, that of the end.

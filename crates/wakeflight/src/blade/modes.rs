@@ -3,7 +3,7 @@
 use super::assembly::Matrices;
 use super::beam::Mesh;
 use super::error::BladeError;
-use super::section::BladeProperties;
+use super::section::{BladeProperties, Root};
 use nalgebra::{Cholesky, DMatrix, DVector, SymmetricEigen};
 
 /// Deflections at the tip.
@@ -98,18 +98,27 @@ impl BladeModes {
         }
         let mesh = Mesh::new(properties, n_elements)?;
         let matrices = Matrices::new(properties, &mesh, omega, reference_pitch);
-        let free = mesh.free(properties.root);
-        let mass = matrices.mass.select_rows(&free).select_columns(&free);
-        let stiffness = matrices.stiffness.select_rows(&free).select_columns(&free);
-        let (frequency, free_shapes) = eigenmodes(&mass, &stiffness, omega, n_elements, n_modes)?;
+        let (frequency, shapes) = if properties.rigid {
+            rigid_modes(&mesh, &matrices, properties.root, omega, n_elements, n_modes)?
+        } else {
+            elastic_modes(&mesh, &matrices, properties.root, omega, n_elements, n_modes)?
+        };
+        Ok(Self::labelled(mesh, &matrices, omega, reference_pitch, frequency, shapes))
+    }
 
-        let mut shapes = DMatrix::zeros(mesh.n_dof(), n_modes);
+    /// Modes with their signs, tip deflections and shares of energy.
+    fn labelled(
+        mesh: Mesh,
+        matrices: &Matrices,
+        omega: f64,
+        reference_pitch: f64,
+        frequency: Vec<f64>,
+        mut shapes: DMatrix<f64>,
+    ) -> Self {
+        let n_modes = frequency.len();
         let (mut tip, mut shares) = (Vec::new(), Vec::new());
         for i in 0..n_modes {
-            let mut shape = DVector::zeros(mesh.n_dof());
-            for (k, &dof) in free.iter().enumerate() {
-                shape[dof] = free_shapes[(k, i)];
-            }
+            let mut shape = shapes.column(i).into_owned();
             let share = energy_shares(&mesh, &matrices.mass, &shape);
             let mut deflection = tip_deflection(&mesh, &shape);
             if share.dominant(deflection) < 0.0 {
@@ -121,7 +130,7 @@ impl BladeModes {
             shares.push(share);
         }
         let no_torsion = shares.iter().all(|share| share.torsion <= 0.5);
-        Ok(Self { omega, reference_pitch, frequency, n_modes, tip, shares, no_torsion, mesh, shapes })
+        Self { omega, reference_pitch, frequency, n_modes, tip, shares, no_torsion, mesh, shapes }
     }
 
     /// Mode shapes at station `x` [m]; beyond root and tip, those of the end.
@@ -152,6 +161,51 @@ impl BladeModes {
     pub fn pieces(&self) -> Vec<(f64, f64, usize)> {
         self.mesh.pieces.iter().map(|piece| (piece.start, piece.end, piece.segment)).collect()
     }
+}
+
+/// Modes of the finite elements: frequencies [rad/s], degrees of freedom (n_dof, n_modes).
+fn elastic_modes(
+    mesh: &Mesh,
+    matrices: &Matrices,
+    root: Root,
+    omega: f64,
+    n_elements: usize,
+    n_modes: usize,
+) -> Result<(Vec<f64>, DMatrix<f64>), BladeError> {
+    let free = mesh.free(root);
+    let mass = matrices.mass.select_rows(&free).select_columns(&free);
+    let stiffness = matrices.stiffness.select_rows(&free).select_columns(&free);
+    let (frequency, free_shapes) = eigenmodes(&mass, &stiffness, omega, n_elements, n_modes)?;
+    let mut shapes = DMatrix::zeros(mesh.n_dof(), n_modes);
+    for i in 0..n_modes {
+        for (k, &dof) in free.iter().enumerate() {
+            shapes[(dof, i)] = free_shapes[(k, i)];
+        }
+    }
+    Ok((frequency, shapes))
+}
+
+/// The same with the blade turning rigidly about its hinges: the elements' matrices reduced to those turns.
+fn rigid_modes(
+    mesh: &Mesh,
+    matrices: &Matrices,
+    root: Root,
+    omega: f64,
+    n_elements: usize,
+    n_modes: usize,
+) -> Result<(Vec<f64>, DMatrix<f64>), BladeError> {
+    let turns = mesh.hinge_turns(root);
+    let available = turns.ncols();
+    if n_modes > available {
+        return Err(BladeError::TooManyModes { asked: n_modes, n_elements, available });
+    }
+    if n_modes == 0 {
+        return Ok((Vec::new(), DMatrix::zeros(mesh.n_dof(), 0)));
+    }
+    let reduced = |matrix: &DMatrix<f64>| turns.transpose() * matrix * &turns;
+    let (mass, stiffness) = (reduced(&matrices.mass), reduced(&matrices.stiffness));
+    let (frequency, hinge_shapes) = eigenmodes(&mass, &stiffness, omega, n_elements, n_modes)?;
+    Ok((frequency, turns * hinge_shapes))
 }
 
 impl EnergyShares {

@@ -33,6 +33,8 @@ pub struct Structure {
 pub enum Root {
     /// Coincident flap and lag hinges at `root_station`.
     Hinged,
+    /// Flap hinge at `root_station`, clamped in lag.
+    Flapping,
     /// Clamped in flap and lag at `root_station`; the pitch bearing sits there too.
     Clamped,
 }
@@ -69,6 +71,9 @@ pub struct BladeProperties {
     pub delta3: f64,
     /// Fixed flap rotation of the blade [rad].
     pub precone: f64,
+    /// Whether the blade keeps its shape: it moves about its hinges alone, or not at all where it is clamped.
+    #[serde(default)]
+    pub rigid: bool,
 }
 
 /// Structure of the blade at one station, per length.
@@ -145,13 +150,15 @@ impl BladeProperties {
         value("delta3", self.delta3, "below a right angle", self.delta3.abs() < FRAC_PI_2)?;
         value("precone", self.precone, "below a right angle", self.precone.abs() < FRAC_PI_2)?;
         check_table("twist.x", "twist.y", &self.twist)?;
-        self.structure.check(self.root_station, self.radius)
+        // a rigid blade without hinges does not move: its mass is of no account
+        let moves = !(self.rigid && self.root == Root::Clamped);
+        self.structure.check(self.root_station, self.radius, moves)
     }
 }
 
 impl Structure {
     /// Every list as long as the first, stations ascending without holes up to `radius`, no negative entries.
-    fn check(&self, root_station: f64, radius: f64) -> Result<(), BladeError> {
+    fn check(&self, root_station: f64, radius: f64, moves: bool) -> Result<(), BladeError> {
         let lists: [(&'static str, &Vec<f64>, Sign); 8] = [
             ("structure.r_in", &self.r_in, Sign::NotNegative),
             ("structure.r_out", &self.r_out, Sign::NotNegative),
@@ -195,7 +202,7 @@ impl Structure {
             return Err(BladeError::NotCovered { from: last, to: radius });
         }
         let on_blade = |i: &usize| self.r_out[*i] > root_station && self.r_in[*i] < radius;
-        if !(0..n).filter(on_blade).any(|i| self.mass[i] > 0.0) {
+        if moves && !(0..n).filter(on_blade).any(|i| self.mass[i] > 0.0) {
             return Err(BladeError::Value {
                 field: "structure.mass",
                 value: 0.0,

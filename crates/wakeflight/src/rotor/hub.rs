@@ -1,13 +1,15 @@
 //! The rotor: equal blades on a hub, each with its lag damper, turned by the swashplate.
 
+use super::data::RotorData;
 use super::lag_damper::LagDamper;
 use super::swashplate::Rigging;
 use crate::airfoil::Airfoil;
 use crate::blade::MAX_MODES;
 use crate::blade::aerodynamics::Air;
+use crate::blade::error::BladeError;
 use crate::blade::kinematics::{ModalMotion, PitchMotion, combine};
 use crate::blade::loads::{BladeEnvironment, BladeInflow, BladeLoads, HubMotion};
-use crate::blade::model::Blade;
+use crate::blade::model::{Blade, Discretisation};
 use crate::numerics::frames::{Body, Hub, Rotation, Vec3, rot_hb};
 use crate::numerics::scalar::Real;
 
@@ -33,6 +35,25 @@ pub struct Rotor {
 }
 
 impl Rotor {
+    /// Discretised from its data; lift ends at `tip_loss_factor` R.
+    pub fn new(
+        data: &RotorData,
+        rigging: Rigging,
+        tip_loss_factor: f64,
+        discretisation: &Discretisation,
+    ) -> Result<Self, BladeError> {
+        Ok(Self {
+            blade: Blade::new(&data.blade, data.omega, tip_loss_factor, discretisation)?,
+            n_blades: data.n_blades,
+            airfoil: data.airfoil.clone(),
+            lag_damper: data.lag_damper.clone(),
+            rigging,
+            omega: data.omega,
+            position: data.position,
+            shaft_tilt: [data.shaft_tilt_forward, data.shaft_tilt_lateral],
+        })
+    }
+
     /// Rotation from body to hub axes.
     pub fn rot_hb<S: Real>(&self) -> Rotation<S, Hub, Body> {
         rot_hb(self.shaft_tilt[0], self.shaft_tilt[1])
@@ -136,6 +157,14 @@ impl Rotor {
         let (x, y, z) = (at.x * c - at.z * s, at.y, at.x * s + at.z * c);
         let e = self.hinge();
         ((z / (self.blade.radius - e)).clamp(-1.0, 1.0).asin(), y.atan2(x - e))
+    }
+
+    /// C_T, C_L (right side down +), C_M (nose up +) of air loads on the hub, hub axes [N, N m].
+    pub fn aero_coefficients<S: Real>(&self, air: Air, force: Vec3<S, Hub>, moment: Vec3<S, Hub>) -> [S; 3] {
+        let radius = self.blade.radius;
+        let scale = 1.0 / (air.density * std::f64::consts::PI * radius * radius * self.tip_speed().powi(2));
+        // hub axes, x aft and y right: right side down is a moment about -x, nose up about +y
+        [force.z * scale, -(moment.x * (scale / radius)), moment.y * (scale / radius)]
     }
 
     /// Station about which the wake's rigid equivalent blade turns [m].

@@ -1,4 +1,8 @@
-//! The rotor: swashplate, lag damper, hub.
+//! The rotor: swashplate, lag damper, hub, periodic blade motion, circulation with the near wake, the stand.
+pub mod circulation;
+pub mod data;
 pub mod hub;
 pub mod lag_damper;
+pub mod periodic;
+pub mod stand;
 pub mod swashplate;

@@ -1,5 +1,6 @@
 //! Blade pitch from the pilot's sticks.
 
+use crate::blade::kinematics::PitchMotion;
 use crate::numerics::scalar::Real;
 use serde::Deserialize;
 
@@ -24,6 +25,58 @@ pub struct BladePitch<S> {
     pub theta_dot: S,
     /// Pitch acceleration [rad/s2].
     pub theta_ddot: S,
+}
+
+impl<S> From<BladePitch<S>> for PitchMotion<S> {
+    fn from(p: BladePitch<S>) -> Self {
+        Self { theta: p.theta, theta_dot: p.theta_dot, theta_ddot: p.theta_ddot }
+    }
+}
+
+/// Higher harmonic of the blade pitch, cosine cos(n psi) + sine sin(n psi).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PitchHarmonic {
+    /// Multiple n of the rotor speed.
+    pub order: usize,
+    /// Cosine coefficient [rad].
+    pub cosine: f64,
+    /// Sine coefficient [rad].
+    pub sine: f64,
+}
+
+/// Steady periodic blade pitch, theta_0 + theta_1c cos psi + theta_1s sin psi + higher harmonics.
+#[derive(Clone, Copy, Debug)]
+pub struct PitchSeries<'a, S> {
+    /// Collective [rad].
+    pub theta_0: S,
+    /// Lateral cyclic [rad].
+    pub theta_1c: S,
+    /// Longitudinal cyclic [rad].
+    pub theta_1s: S,
+    /// Higher harmonics, in the order they are added.
+    pub higher: &'a [PitchHarmonic],
+}
+
+impl<S: Real> PitchSeries<'_, S> {
+    /// Pitch at azimuth `psi` [rad] of a rotor turning at `omega` [rad/s], with exact rates.
+    pub fn at(&self, psi: f64, omega: f64) -> BladePitch<S> {
+        let (s, c) = psi.sin_cos();
+        let cyclic = self.theta_1c * c + self.theta_1s * s;
+        let mut pitch = BladePitch {
+            theta: self.theta_0 + cyclic,
+            theta_dot: (self.theta_1s * c - self.theta_1c * s) * omega,
+            theta_ddot: -(cyclic * (omega * omega)),
+        };
+        for h in self.higher {
+            let w = h.order as f64 * omega;
+            let (s, c) = (h.order as f64 * psi).sin_cos();
+            let value = h.cosine * c + h.sine * s;
+            pitch.theta += S::cst(value);
+            pitch.theta_dot += S::cst((h.sine * c - h.cosine * s) * w);
+            pitch.theta_ddot += S::cst(-value * w * w);
+        }
+        pitch
+    }
 }
 
 impl Rigging {
@@ -127,6 +180,30 @@ mod tests {
         let (now, before, after) = (at(0.0), at(-h), at(h));
         assert!((now.theta_dot - (after.theta - before.theta) / (2.0 * h)).abs() < 1e-6);
         assert!((now.theta_ddot - (after.theta_dot - before.theta_dot) / (2.0 * h)).abs() < 1e-4);
+    }
+
+    #[test]
+    fn steady_pitch_is_the_same_by_sticks_and_by_its_series() {
+        let r = rigging();
+        let stick = [0.12, 0.10, 0.14, 0.05];
+        let [theta_1c, theta_1s, theta_0, _] = r.pitch::<f64>(stick);
+        let series = PitchSeries { theta_0, theta_1c, theta_1s, higher: &[] };
+        for psi in [0.0, 0.7, 2.9, 5.1] {
+            let (a, b) = (r.blade_pitch::<f64>(stick, [0.0; 4], psi, 27.0), series.at(psi + r.phase, 27.0));
+            assert!((a.theta - b.theta).abs() < 1e-14 && (a.theta_dot - b.theta_dot).abs() < 1e-12);
+            assert!((a.theta_ddot - b.theta_ddot).abs() < 1e-10);
+        }
+    }
+
+    #[test]
+    fn rates_of_higher_harmonics_are_time_derivatives() {
+        let higher = [PitchHarmonic { order: 3, cosine: 0.007, sine: -0.012 }];
+        let series = PitchSeries { theta_0: 0.1, theta_1c: 0.02, theta_1s: -0.05, higher: &higher };
+        let (omega, h) = (100.0, 1e-6);
+        let at = |t: f64| series.at(0.4 + omega * t, omega);
+        let (now, before, after) = (at(0.0), at(-h), at(h));
+        assert!((now.theta_dot - (after.theta - before.theta) / (2.0 * h)).abs() < 1e-6);
+        assert!((now.theta_ddot - (after.theta_dot - before.theta_dot) / (2.0 * h)).abs() < 1e-3);
     }
 
     #[test]

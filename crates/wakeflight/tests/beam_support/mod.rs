@@ -70,6 +70,7 @@ pub fn uniform(hold: Root, root: f64, radius: f64, ei_flap: f64, ei_lag: f64) ->
         structural_damping_ratio: 0.0,
         delta3: 0.0,
         precone: 0.0,
+        rigid: false,
     }
 }
 
@@ -107,6 +108,7 @@ pub fn uh60a() -> BladeProperties {
         structural_damping_ratio: blade("structural_damping_ratio"),
         delta3: rotor("delta3"),
         precone: rotor("precone"),
+        rigid: false,
     }
 }
 

@@ -1,0 +1,358 @@
+//! The isolated rotor on a stand: conversions only.
+
+use crate::rotor::{motion, rotor_constants};
+use numpy::ndarray::Array;
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
+use pyo3::exceptions::{PyArithmeticError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::f64::consts::TAU;
+use wakeflight::blade::aerodynamics::Air;
+use wakeflight::blade::loads::BladeInflow;
+use wakeflight::blade::model::Discretisation;
+use wakeflight::inflow::pitt_peters::PittPeters;
+use wakeflight::rotor::circulation::BladeInstant;
+use wakeflight::rotor::data::RotorData;
+use wakeflight::rotor::hub::Rotor;
+use wakeflight::rotor::stand::{ControlEquation, Stand, StandInflow, StandProblem};
+use wakeflight::rotor::swashplate::{PitchHarmonic, Rigging};
+use wakeflight::wake::WakeOptions;
+
+fn invalid(error: impl std::fmt::Display) -> PyErr {
+    PyValueError::new_err(error.to_string())
+}
+
+fn equation(name: &str, value: f64) -> PyResult<ControlEquation> {
+    Ok(match name {
+        "collective" => ControlEquation::Collective(value),
+        "lateral_cyclic" => ControlEquation::LateralCyclic(value),
+        "longitudinal_cyclic" => ControlEquation::LongitudinalCyclic(value),
+        "thrust" => ControlEquation::Thrust(value),
+        "torque" => ControlEquation::Torque(value),
+        "beta_1c" => ControlEquation::FlapCosine(value),
+        "beta_1s" => ControlEquation::FlapSine(value),
+        "hub_roll" => ControlEquation::HubRoll(value),
+        "hub_pitch" => ControlEquation::HubPitch(value),
+        other => return Err(invalid(format!("control equation '{other}' is unknown"))),
+    })
+}
+
+/// A steady condition on the stand; see `wakeflight.tunnel`.
+#[pyclass(name = "StandProblem", frozen)]
+pub struct PyStandProblem(StandProblem);
+
+#[pymethods]
+impl PyStandProblem {
+    /// Three `controls` (name, value in SI), `higher` (order, cosine, sine [rad]); inflow (n_azimuths, n_stations) or None.
+    #[new]
+    #[allow(clippy::too_many_arguments, reason = "the fields of the problem")]
+    fn new(
+        velocity: [f64; 3],
+        rates: [f64; 3],
+        controls: [(String, f64); 3],
+        higher: Vec<(usize, f64, f64)>,
+        n_harmonics: usize,
+        n_azimuths: usize,
+        inflow: Option<PyReadonlyArray2<f64>>,
+    ) -> PyResult<Self> {
+        let [a, b, c] = controls;
+        let controls = [equation(&a.0, a.1)?, equation(&b.0, b.1)?, equation(&c.0, c.1)?];
+        let higher =
+            higher.into_iter().map(|(order, cosine, sine)| PitchHarmonic { order, cosine, sine }).collect();
+        let inflow = match inflow {
+            None => StandInflow::Dynamic,
+            Some(map) => StandInflow::Map(map.as_array().iter().copied().collect()),
+        };
+        Ok(Self(StandProblem { velocity, rates, controls, higher, n_harmonics, n_azimuths, inflow }))
+    }
+}
+
+/// Rotor of one condition on the stand. Names of the methods it shares with `Aircraft` are the same; y is hub velocity
+/// and rates (6), a stick is theta_0, theta_1c, theta_1s.
+#[pyclass(name = "Stand", frozen)]
+pub struct PyStand {
+    inner: Stand,
+    higher: Vec<PitchHarmonic>,
+}
+
+fn hub_state(y: &[f64]) -> PyResult<([f64; 3], [f64; 3])> {
+    match y {
+        [u, v, w, p, q, r] => Ok(([*u, *v, *w], [*p, *q, *r])),
+        _ => Err(invalid(format!("hub motion has {} numbers, 6 needed", y.len()))),
+    }
+}
+
+#[pymethods]
+impl PyStand {
+    /// From the JSON of the rotor data, air, weight, discretisation; `free_wake` switches the tip loss off.
+    #[new]
+    #[allow(clippy::too_many_arguments, reason = "the fields of the discretisation")]
+    fn new(
+        data_json: &str,
+        density: f64,
+        speed_of_sound: f64,
+        gravity: f64,
+        free_wake: bool,
+        n_elements: usize,
+        n_modes: usize,
+        n_gauss: usize,
+        n_stations: usize,
+        reference_pitch: f64,
+        higher: Vec<(usize, f64, f64)>,
+    ) -> PyResult<Self> {
+        let data: RotorData = serde_json::from_str(data_json).map_err(invalid)?;
+        let discretisation = Discretisation { n_elements, n_modes, n_gauss, n_stations, reference_pitch };
+        let rigging = Rigging { matrix: [[0.0; 4]; 4], offset: [0.0; 4], phase: 0.0 };
+        let tip_loss_factor = if free_wake { 1.0 } else { data.tip_loss_factor };
+        let rotor = Rotor::new(&data, rigging, tip_loss_factor, &discretisation).map_err(invalid)?;
+        let air = Air { density, speed_of_sound };
+        let inner = Stand { rotor, air, gravity, pitt_peters: PittPeters::default() };
+        let higher =
+            higher.into_iter().map(|(order, cosine, sine)| PitchHarmonic { order, cosine, sine }).collect();
+        Ok(Self { inner, higher })
+    }
+
+    /// Constants of the rotor that the coupling and the results need.
+    fn rotor<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let d = rotor_constants(py, &self.inner.rotor)?;
+        d.set_item("solidity", self.inner.solidity())?;
+        Ok(d)
+    }
+
+    /// Names of the equations.
+    fn trim_equations(&self, problem: &PyStandProblem) -> Vec<String> {
+        self.inner.equations(&problem.0)
+    }
+
+    /// Index of the first unknown of every mode (and one past the last), and of the inflow.
+    fn trim_layout(&self, problem: &PyStandProblem) -> (Vec<usize>, usize) {
+        let l = self.inner.layout(&problem.0);
+        let h = l.harmonics();
+        ((0..=h.n_modes).map(|i| h.mode(i)).collect(), l.inflow())
+    }
+
+    /// Residual of the equations.
+    fn trim_residual<'py>(
+        &self,
+        py: Python<'py>,
+        problem: &PyStandProblem,
+        x: PyReadonlyArray1<f64>,
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let x = self.unknowns(problem, &x)?;
+        let mut f = vec![0.0; x.len()];
+        py.detach(|| self.inner.residual(&problem.0, &x, &mut f));
+        Ok(f.into_pyarray(py))
+    }
+
+    /// Exact Jacobian (n, n).
+    fn trim_jacobian<'py>(
+        &self,
+        py: Python<'py>,
+        problem: &PyStandProblem,
+        x: PyReadonlyArray1<f64>,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let x = self.unknowns(problem, &x)?;
+        let n = x.len();
+        let mut j = vec![0.0; n * n];
+        py.detach(|| self.inner.jacobian(&problem.0, &x, &mut j));
+        Ok(Array::from_shape_vec((n, n), j).map_err(invalid)?.into_pyarray(py))
+    }
+
+    /// Hub motion of the problem (6): what the exchange calls the state. The motion is steady: there is no rate.
+    fn trim_state<'py>(
+        &self,
+        py: Python<'py>,
+        problem: &PyStandProblem,
+        x: PyReadonlyArray1<f64>,
+        t: f64,
+    ) -> (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>) {
+        let _ = (x, t);
+        let y: Vec<f64> = problem.0.velocity.iter().chain(&problem.0.rates).copied().collect();
+        (y.into_pyarray(py), vec![0.0; 6].into_pyarray(py))
+    }
+
+    /// Modal coordinates and rates (n_azimuths, n_modes) of the periodic motion.
+    fn trim_motion<'py>(
+        &self,
+        py: Python<'py>,
+        problem: &PyStandProblem,
+        x: PyReadonlyArray1<f64>,
+        n_azimuths: usize,
+    ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>)> {
+        let x = self.unknowns(problem, &x)?;
+        let h = self.inner.layout(&problem.0).harmonics();
+        let n = h.n_modes;
+        let (mut q, mut q_dot) = (Vec::new(), Vec::new());
+        for k in 0..n_azimuths {
+            let psi = TAU * k as f64 / n_azimuths as f64;
+            let m = h.motion(&x, psi, self.inner.rotor.omega);
+            q.extend_from_slice(&m.q[..n]);
+            q_dot.extend_from_slice(&m.q_dot[..n]);
+        }
+        let shape = |v| Array::from_shape_vec((n_azimuths, n), v).map_err(invalid);
+        Ok((shape(q)?.into_pyarray(py), shape(q_dot)?.into_pyarray(py)))
+    }
+
+    /// Hub velocity [m/s] and rates [rad/s] of y.
+    fn hub(&self, y: PyReadonlyArray1<f64>) -> PyResult<([f64; 3], [f64; 3])> {
+        hub_state(y.as_slice()?)
+    }
+
+    /// Equivalent rigid flap and lead angles [rad] for modal coordinates (n, n_modes).
+    #[allow(clippy::type_complexity, reason = "two arrays")]
+    fn equivalent_angles<'py>(
+        &self,
+        py: Python<'py>,
+        q: PyReadonlyArray2<f64>,
+    ) -> (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>) {
+        let (flap, lead): (Vec<f64>, Vec<f64>) = q
+            .as_array()
+            .rows()
+            .into_iter()
+            .map(|row| self.inner.rotor.equivalent_angles(&motion(row.iter().copied(), std::iter::empty())))
+            .unzip();
+        (flap.into_pyarray(py), lead.into_pyarray(py))
+    }
+
+    /// Circulation and near wake solved together; the arguments and answers of `Aircraft.solve_circulation`.
+    #[allow(clippy::too_many_arguments, clippy::type_complexity, reason = "one call per exchange")]
+    fn solve_circulation<'py>(
+        &self,
+        py: Python<'py>,
+        wake_options: &str,
+        y: PyReadonlyArray1<f64>,
+        stick: [f64; 3],
+        stick_rate: PyReadonlyArray1<f64>,
+        psi: PyReadonlyArray1<f64>,
+        q: PyReadonlyArray2<f64>,
+        q_dot: PyReadonlyArray2<f64>,
+        lambda_far: PyReadonlyArray2<f64>,
+        start: PyReadonlyArray2<f64>,
+    ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>, f64, usize)> {
+        let _ = stick_rate;
+        let options: WakeOptions = serde_json::from_str(wake_options).map_err(invalid)?;
+        let (velocity, rates) = hub_state(y.as_slice()?)?;
+        let hub = self.inner.hub(velocity, rates);
+        let (q, q_dot) = (q.as_array(), q_dot.as_array());
+        let instants: Vec<BladeInstant> = psi
+            .as_slice()?
+            .iter()
+            .enumerate()
+            .map(|(i, &psi)| BladeInstant {
+                psi,
+                modal: motion(q.row(i).iter().copied(), q_dot.row(i).iter().copied()),
+                control: self.inner.pitch(stick, &self.higher, psi),
+            })
+            .collect();
+        let far: Vec<f64> = lambda_far.as_array().iter().copied().collect();
+        let start: Vec<f64> = start.as_array().iter().copied().collect();
+        let all = py
+            .detach(|| self.inner.rotor.circulations(self.inner.air, &options, &hub, &instants, &far, &start))
+            .map_err(|e| PyArithmeticError::new_err(e.to_string()))?;
+        let n = self.inner.rotor.blade.stations.len();
+        let shape = |v| Array::from_shape_vec((instants.len(), n), v).map_err(invalid);
+        let (gamma, inflow) = (shape(all.gamma)?, shape(all.inflow)?);
+        Ok((gamma.into_pyarray(py), inflow.into_pyarray(py), all.residual, all.not_converged))
+    }
+
+    /// Circulation [m2/s] of one blade's sections and its slope by inflow, for inflow (n_stations,).
+    #[allow(clippy::too_many_arguments, clippy::type_complexity, reason = "the motion of a blade")]
+    fn section_circulation<'py>(
+        &self,
+        py: Python<'py>,
+        hub_velocity: [f64; 3],
+        hub_rates: [f64; 3],
+        stick: [f64; 3],
+        psi: f64,
+        q: PyReadonlyArray1<f64>,
+        q_dot: PyReadonlyArray1<f64>,
+        inflow: PyReadonlyArray1<f64>,
+    ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>)> {
+        let hub = self.inner.hub(hub_velocity, hub_rates);
+        let blade = BladeInstant {
+            psi,
+            modal: motion(q.as_slice()?.iter().copied(), q_dot.as_slice()?.iter().copied()),
+            control: self.inner.pitch(stick, &self.higher, psi),
+        };
+        let lambda = inflow.as_slice()?;
+        let (mut gamma, mut slope) = (vec![0.0; lambda.len()], vec![0.0; lambda.len()]);
+        self.inner.rotor.section_circulation(self.inner.air, &hub, &blade, lambda, &mut gamma, &mut slope);
+        Ok((gamma.into_pyarray(py), slope.into_pyarray(py)))
+    }
+
+    /// Loads of one blade on the hub (hub axes) and the air at its stations, for azimuths `psi` (m,) of the periodic motion
+    /// `x` and total inflow (m, n_stations): a dictionary of arrays.
+    fn passages<'py>(
+        &self,
+        py: Python<'py>,
+        problem: &PyStandProblem,
+        x: PyReadonlyArray1<f64>,
+        psi: PyReadonlyArray1<f64>,
+        inflow: PyReadonlyArray2<f64>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let x = self.unknowns(problem, &x)?;
+        let stand = &self.inner;
+        let (psi, inflow) = (psi.as_slice()?, inflow.as_array());
+        let n = stand.rotor.blade.stations.len();
+        if inflow.dim() != (psi.len(), n) {
+            return Err(invalid(format!("inflow {:?}, ({}, {n}) needed", inflow.dim(), psi.len())));
+        }
+        let hub = stand.hub(problem.0.velocity, problem.0.rates);
+        let mut loads: [Vec<f64>; 4] = Default::default();
+        const FIELDS: [&str; 7] = ["cl", "cd", "cm", "alpha", "mach", "circulation", "speed"];
+        let mut fields: [Vec<f64>; 7] = Default::default();
+        for (row, &azimuth) in psi.iter().enumerate() {
+            let lambda = inflow.row(row).to_vec();
+            let blade = stand.instant(&problem.0, &x, azimuth);
+            let given = BladeInflow::Stations(&lambda);
+            let b = stand.rotor.blade_loads(stand.air, &hub, azimuth, &blade.modal, &blade.control, &given);
+            for (all, one) in loads.iter_mut().zip([b.force, b.moment, b.aero_force, b.aero_moment]) {
+                all.extend(one.array());
+            }
+            stand.rotor.blade_air(
+                stand.air,
+                &hub,
+                azimuth,
+                &blade.modal,
+                &blade.control,
+                &given,
+                |_, air, _| {
+                    let values = [air.cl, air.cd, air.cm, air.alpha, air.mach, air.circulation, air.speed];
+                    for (field, value) in fields.iter_mut().zip(values) {
+                        field.push(value);
+                    }
+                },
+            );
+        }
+        let d = PyDict::new(py);
+        let shape = |m, v| Array::from_shape_vec((psi.len(), m), v).map_err(invalid);
+        for (name, values) in ["force", "moment", "aero_force", "aero_moment"].into_iter().zip(loads) {
+            d.set_item(name, shape(3, values)?.into_pyarray(py))?;
+        }
+        for (name, values) in FIELDS.into_iter().zip(fields) {
+            d.set_item(name, shape(n, values)?.into_pyarray(py))?;
+        }
+        Ok(d)
+    }
+}
+
+impl PyStand {
+    /// The unknowns, of the right number.
+    fn unknowns(&self, problem: &PyStandProblem, x: &PyReadonlyArray1<f64>) -> PyResult<Vec<f64>> {
+        let n = self.inner.layout(&problem.0).len();
+        let rows = self.inner.rotor.blade.stations.len() * problem.0.n_azimuths;
+        if let StandInflow::Map(map) = &problem.0.inflow
+            && map.len() != rows
+        {
+            return Err(invalid(format!("inflow map has {} values, {rows} needed", map.len())));
+        }
+        let x = x.as_slice()?.to_vec();
+        if x.len() != n { Err(invalid(format!("{} unknowns, {n} needed", x.len()))) } else { Ok(x) }
+    }
+}
+
+/// Registers the classes of this file.
+pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
+    m.add_class::<PyStand>()?;
+    m.add_class::<PyStandProblem>()
+}
