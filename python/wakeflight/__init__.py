@@ -17,7 +17,7 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .aircraft import Aircraft, load_aircraft
+    from .aircraft import Aircraft, Rotor, load_aircraft, load_rotor
     from .condition import FlightCondition, condition_for
     from .converge import converge
     from .errors import InputError, NumericalFailure, WakeflightError
@@ -27,11 +27,14 @@ if TYPE_CHECKING:
     from .modes import blade_modes
     from .references import bibtex
     from .trim import Trim, trim
+    from .tunnel import Tunnel, tunnel
     from .vortex import induced_velocity
 
 _HOME = {
     "Aircraft": "aircraft",
     "load_aircraft": "aircraft",
+    "Rotor": "aircraft",
+    "load_rotor": "aircraft",
     "FlightCondition": "condition",
     "condition_for": "condition",
     "converge": "converge",
@@ -52,6 +55,8 @@ _HOME = {
     "bibtex": "references",
     "Trim": "trim",
     "trim": "trim",
+    "Tunnel": "tunnel",
+    "tunnel": "tunnel",
     "induced_velocity": "vortex",
 }
 
@@ -64,8 +69,10 @@ __all__ = [
     "Maneuver",
     "NumericalFailure",
     "RelaxationWake",
+    "Rotor",
     "TimeMarchingWake",
     "Trim",
+    "Tunnel",
     "WakeflightError",
     "__version__",
     "arrested_descent",
@@ -78,8 +85,10 @@ __all__ = [
     "inflow_model",
     "load_aircraft",
     "load_maneuver",
+    "load_rotor",
     "roll_reversal",
     "trim",
+    "tunnel",
 ]
 
 

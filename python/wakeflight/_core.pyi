@@ -96,6 +96,68 @@ class Aircraft:
     def outputs(self, t: float, y: _Array, y_dot: _Array, inputs: Inputs) -> dict[str, Any]: ...
 
 @final
+class StandProblem:
+    def __new__(
+        cls,
+        velocity: _Vector,
+        rates: _Vector,
+        controls: Sequence[tuple[str, float]],
+        higher: Sequence[tuple[int, float, float]],
+        n_harmonics: int,
+        n_azimuths: int,
+        inflow: _Array | None,
+    ) -> StandProblem: ...
+
+@final
+class Stand:
+    def __new__(
+        cls,
+        data_json: str,
+        density: float,
+        speed_of_sound: float,
+        gravity: float,
+        free_wake: bool,
+        n_elements: int,
+        n_modes: int,
+        n_gauss: int,
+        n_stations: int,
+        reference_pitch: float,
+        higher: Sequence[tuple[int, float, float]],
+    ) -> Stand: ...
+    def rotor(self) -> dict[str, Any]: ...
+    def trim_equations(self, problem: StandProblem) -> list[str]: ...
+    def trim_layout(self, problem: StandProblem) -> tuple[list[int], int]: ...
+    def trim_residual(self, problem: StandProblem, x: _Array) -> _Array: ...
+    def trim_jacobian(self, problem: StandProblem, x: _Array) -> _Array: ...
+    def trim_state(self, problem: StandProblem, x: _Array, t: float) -> tuple[_Array, _Array]: ...
+    def trim_motion(self, problem: StandProblem, x: _Array, n_azimuths: int) -> tuple[_Array, _Array]: ...
+    def hub(self, y: _Array) -> tuple[list[float], list[float]]: ...
+    def equivalent_angles(self, q: _Array) -> tuple[_Array, _Array]: ...
+    def solve_circulation(
+        self,
+        wake_options: str,
+        y: _Array,
+        stick: _Vector,
+        stick_rate: _Array,
+        psi: _Array,
+        q: _Array,
+        q_dot: _Array,
+        lambda_far: _Array,
+        start: _Array,
+    ) -> tuple[_Array, _Array, float, int]: ...
+    def section_circulation(
+        self,
+        hub_velocity: _Vector,
+        hub_rates: _Vector,
+        stick: _Vector,
+        psi: float,
+        q: _Array,
+        q_dot: _Array,
+        inflow: _Array,
+    ) -> tuple[_Array, _Array]: ...
+    def passages(self, problem: StandProblem, x: _Array, psi: _Array, inflow: _Array | None) -> dict[str, _Array]: ...
+
+@final
 class BladeModes:
     def __new__(
         cls, properties_json: str, omega: float, reference_pitch: float, n_elements: int, n_modes: int

@@ -325,6 +325,105 @@ def validate(
         raise NumericalFailure(f"outside the tolerance of an exact case, or not run: {', '.join(broken)}")
 
 
+@app.command()
+def tunnel(
+    aircraft: AircraftName = "uh60a",
+    rotor: Annotated[
+        str | None, typer.Option("--rotor", metavar="FILE", help="a rotor file, in place of --aircraft")
+    ] = None,
+    collective: Annotated[str | None, typer.Option("--collective", help='"8 deg" unless a load is asked for')] = None,
+    speed: Annotated[str, typer.Option("--speed", help='wind from the front, "80 kt"')] = "0 kt",
+    shaft_angle: Annotated[
+        str, typer.Option("--shaft-angle", help="tilt of the shaft, aft + (disk met from below)")
+    ] = "0 deg",
+    climb: Annotated[str, typer.Option("--climb", help='up the shaft, descent -, "-5 m/s"')] = "0 m/s",
+    inflow: InflowName = "time-marching",
+    collective_at: Annotated[
+        str, typer.Option("--collective-at", help='where the collective is meant: root, "0.75 R"')
+    ] = "root",
+    lateral_cyclic: Annotated[str | None, typer.Option("--lateral-cyclic", help="theta_1c")] = None,
+    longitudinal_cyclic: Annotated[str | None, typer.Option("--longitudinal-cyclic", help="theta_1s")] = None,
+    higher_harmonics: Annotated[
+        list[str] | None, typer.Option("--higher-harmonic", help='"3, 0.8 deg, 300 deg": order, amplitude, phase')
+    ] = None,
+    thrust: Annotated[str | None, typer.Option("--thrust", help='find the collective for it, "3300 N"')] = None,
+    ct: Annotated[float | None, typer.Option("--ct", help="the same as a coefficient")] = None,
+    torque: Annotated[
+        str | None, typer.Option("--torque", help="find the collective for it; zero: autorotation")
+    ] = None,
+    flapping: Annotated[
+        str | None, typer.Option("--flapping", help='find both cyclics: zero, "1.5 deg, -0.6 deg"')
+    ] = None,
+    hub_roll: Annotated[
+        str | None, typer.Option("--hub-roll", help="find both cyclics for it, right side down +")
+    ] = None,
+    hub_pitch: Annotated[str | None, typer.Option("--hub-pitch", help="find both cyclics for it, nose up +")] = None,
+    omega: Annotated[str | None, typer.Option("--omega", help='rotor speed, "1250 rpm"')] = None,
+    altitude: Annotated[str, typer.Option("--altitude", help="standard atmosphere")] = "0 m",
+    density: Annotated[str | None, typer.Option("--density", help='"1.19 kg/m3"')] = None,
+    speed_of_sound: Annotated[str | None, typer.Option("--speed-of-sound", help='"342 m/s"')] = None,
+    blades: Annotated[str | None, typer.Option("--blades", help="rigid, flexible; the file's own")] = None,
+    revolutions: Annotated[int | None, typer.Option("--revolutions", help="revolutions of the marching wake")] = None,
+    averaged: Annotated[int | None, typer.Option("--averaged", help="of them, the last ones averaged")] = None,
+    azimuth_step: AzimuthStep = None,
+    wake_turns: WakeTurns = None,
+    wake_scheme: WakeScheme = None,
+    threads: Threads = None,
+    out: Out = None,
+) -> None:
+    """Put an isolated rotor on a stand, print a table, write tunnel.nc and figures."""
+    _set_threads(threads)
+    folder = _writable(out or Path("runs/tunnel"))
+    from .plotting import tunnel as drawing
+    from .progress import Progress
+    from .tunnel import configured
+    from .tunnel import tunnel as solve
+
+    wake = {"azimuth_step": azimuth_step, "turns": wake_turns, "scheme": wake_scheme}
+    given = {name: value for name, value in wake.items() if value is not None}
+    conditions = {"speed": speed, "shaft_angle": shaft_angle, "climb": climb, "omega": omega}
+    model = configured(rotor or aircraft, inflow, given, conditions) if given else inflow
+    pair = [each.strip() for each in flapping.split(",")] if flapping and "," in flapping else flapping
+    with Progress() as progress:
+        result = solve(
+            rotor or aircraft,
+            collective,
+            inflow=model,
+            collective_at=collective_at,
+            lateral_cyclic=lateral_cyclic,
+            longitudinal_cyclic=longitudinal_cyclic,
+            higher_harmonics=[_harmonic(each) for each in higher_harmonics or []],
+            thrust=thrust,
+            ct=ct,
+            torque=torque,
+            flapping=pair,
+            hub_roll=hub_roll,
+            hub_pitch=hub_pitch,
+            altitude=altitude,
+            density=density,
+            speed_of_sound=speed_of_sound,
+            blades=blades,
+            revolutions=revolutions,
+            averaged=averaged,
+            progress=progress,
+            **conditions,
+        )
+    print(result.table())
+    result.save(_folder(folder) / "tunnel.nc")
+    written = drawing.write(result.data, folder)
+    print(f"wrote {folder / 'tunnel.nc'}, {', '.join(each.name for each in written)}")
+
+
+def _harmonic(text: str) -> dict[str, Any]:
+    """Order, amplitude and phase of a higher-harmonic pitch from "3, 0.8 deg, 300 deg"."""
+    parts = [each.strip() for each in text.split(",")]
+    if len(parts) != 3 or not parts[0].isdigit():
+        raise InputError.of(
+            "--higher-harmonic", text, 'must be order, amplitude, phase, for example "3, 0.8 deg, 300 deg"'
+        )
+    return {"order": int(parts[0]), "amplitude": parts[1], "phase": parts[2]}
+
+
 def _not_yet(name: str) -> None:
     def command() -> None:
         raise InputError(f"not in this version yet: {name}")
@@ -334,7 +433,7 @@ def _not_yet(name: str) -> None:
     app.command(name, context_settings=ignore, add_help_option=True)(command)
 
 
-for _name in ("tunnel", "paper"):
+for _name in ("paper",):
     _not_yet(_name)
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from . import _core
-from .model import Model
+from .model import CompiledRotor
 
 if TYPE_CHECKING:
     from .wake_trim import WakeInTrim
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 class MarchingExchange:
     """Time-marching free wake, exchanged every coupling step [ribera2004, bhagwat2001]."""
 
-    def __init__(self, model: Model, trimmed: WakeInTrim):
+    def __init__(self, model: CompiledRotor, trimmed: WakeInTrim):
         self.model = model
         self.n = model.steps_per_revolution
         self.wake = _core.TimeMarchingWake.from_relaxation(trimmed.relaxation, 0, model.wake_options)
@@ -82,7 +82,8 @@ class MarchingExchange:
             self._frozen = (problem, q, q_dot, core.trim_state(problem, x, 0.0)[0])
         _, q, q_dot, y = self._frozen
         rows = self._rows(self.step_index + 1)
-        self.advance(y, x[:4], np.zeros(4), q[rows], q_dot[rows])
+        controls = x[: self.model.n_controls]
+        self.advance(y, controls, np.zeros(len(controls)), q[rows], q_dot[rows])
         return rows, self.inflow.copy(), self.circulation.copy()
 
     def periodic_map(self, records: list[tuple[list[int], np.ndarray, np.ndarray]]) -> tuple[np.ndarray, np.ndarray]:
@@ -115,7 +116,7 @@ class MarchingExchange:
 class RelaxationExchange:
     """Relaxation free wake in the response: inflow of the state taken as steady, renewed once per revolution."""
 
-    def __init__(self, model: Model, trimmed: WakeInTrim):
+    def __init__(self, model: CompiledRotor, trimmed: WakeInTrim):
         self.model = model
         self.n = model.steps_per_revolution
         self.trimmed = trimmed

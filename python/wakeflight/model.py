@@ -6,7 +6,7 @@ from __future__ import annotations
 import json
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -17,48 +17,19 @@ from .inflow import DynamicInflow, InflowModel
 from .units import STANDARD_GRAVITY
 
 
-@dataclass(frozen=True)
-class Model:
-    """Aircraft, condition and inflow model compiled into F(y_dot, y, u; t) = 0."""
+class CompiledRotor:
+    """What the exchanges with a wake ask of a compiled model: the rotor's constants, its grid, the wake's options."""
 
-    aircraft: Aircraft
-    condition: FlightCondition
+    aircraft: Any
     inflow: InflowModel
-    core: _core.Aircraft
-    data: dict[str, Any]
-    density: float
-    speed_of_sound: float
-
-    @classmethod
-    def build(cls, aircraft: Aircraft, condition: FlightCondition, inflow: InflowModel) -> Model:
-        """Compile; the tip loss is off and the inflow states are out of y with a free wake."""
-        density, speed_of_sound, _ = _core.standard_atmosphere(condition.altitude)
-        data = aircraft.core_data(condition)
-        d = aircraft.discretisation
-        inflow.step(aircraft)
-        core = _core.Aircraft(
-            json.dumps(data),
-            density,
-            speed_of_sound,
-            STANDARD_GRAVITY,
-            not isinstance(inflow, DynamicInflow),
-            d.n_elements,
-            d.n_modes,
-            d.n_gauss,
-            inflow.n_stations,
-            d.reference_pitch,
-        )
-        return cls(aircraft, condition, inflow, core, data, density, speed_of_sound)
+    core: Any
+    n_controls: ClassVar[int]
+    """How many controls stand at the head of the unknowns."""
 
     @cached_property
     def rotor(self) -> dict[str, Any]:
         """Constants of the rotor (SI): omega, radius, stations, widths, modal tip deflections ..."""
         return self.core.rotor()
-
-    @cached_property
-    def layout(self) -> dict[str, Any]:
-        """Where the parts of y start."""
-        return self.core.layout()
 
     @property
     def omega(self) -> float:
@@ -99,6 +70,46 @@ class Model:
     def disk_mean(self, inflow: np.ndarray) -> float:
         """Area mean of an inflow map (..., n_stations)."""
         return float(np.mean(inflow @ self.area_weights))
+
+
+@dataclass(frozen=True)
+class Model(CompiledRotor):
+    """Aircraft, condition and inflow model compiled into F(y_dot, y, u; t) = 0."""
+
+    aircraft: Aircraft
+    condition: FlightCondition
+    inflow: InflowModel
+    core: _core.Aircraft
+    data: dict[str, Any]
+    density: float
+    speed_of_sound: float
+    n_controls: ClassVar[int] = 4
+
+    @classmethod
+    def build(cls, aircraft: Aircraft, condition: FlightCondition, inflow: InflowModel) -> Model:
+        """Compile; the tip loss is off and the inflow states are out of y with a free wake."""
+        density, speed_of_sound, _ = _core.standard_atmosphere(condition.altitude)
+        data = aircraft.core_data(condition)
+        d = aircraft.discretisation
+        inflow.step(aircraft)
+        core = _core.Aircraft(
+            json.dumps(data),
+            density,
+            speed_of_sound,
+            STANDARD_GRAVITY,
+            not isinstance(inflow, DynamicInflow),
+            d.n_elements,
+            d.n_modes,
+            d.n_gauss,
+            inflow.n_stations,
+            d.reference_pitch,
+        )
+        return cls(aircraft, condition, inflow, core, data, density, speed_of_sound)
+
+    @cached_property
+    def layout(self) -> dict[str, Any]:
+        """Where the parts of y start."""
+        return self.core.layout()
 
     def modal(self, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Modal coordinates and rates of all blades, (n_blades, n_modes) each."""

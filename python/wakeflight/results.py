@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .schema import ATTRIBUTES, COORDINATES, RUN, TRIM, Variable
+from .schema import ATTRIBUTES, COORDINATES, RUN, TRIM, TUNNEL, Variable
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -44,6 +44,12 @@ def assemble_trim(arrays: Arrays, attributes: Mapping[str, Any]) -> xr.Dataset:
     """Dataset of one trim, from arrays by the names of the schema's `TRIM` table, checked like a run."""
     marked = {"program_version": _program_version(), **attributes}
     return _dataset(TRIM, arrays, marked, increasing=("azimuth", "station"))
+
+
+def assemble_tunnel(arrays: Arrays, attributes: Mapping[str, Any]) -> xr.Dataset:
+    """Dataset of a rotor on a stand, from arrays by the names of the schema's `TUNNEL` table, checked like a run."""
+    marked = {"program_version": _program_version(), **attributes}
+    return _dataset(TUNNEL, arrays, marked, increasing=("azimuth", "station", "age", "revolution"))
 
 
 def save(dataset: xr.Dataset, path: str | Path) -> Path:
@@ -178,7 +184,7 @@ def _coordinates(given: Arrays, sizes: Mapping[str, int], increasing: Sequence[s
             values = np.array(["x", "y", "z"])
         elif dim in given:
             values = given[dim]
-        elif dim in ("blade", "mode", "harmonic", "snapshot"):
+        elif dim in ("blade", "mode", "harmonic", "snapshot", "revolution"):
             values = np.arange(n) if dim in ("harmonic", "snapshot") else np.arange(1, n + 1)
         else:
             raise ResultsError(f"coordinate {dim} [{COORDINATES[dim].units}] is missing")

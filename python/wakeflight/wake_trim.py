@@ -13,7 +13,7 @@ import numpy as np
 
 from . import _core
 from .exchange import MarchingExchange
-from .model import Model
+from .model import CompiledRotor
 
 FIRST_TURN_TOLERANCE = 1e-3
 """Change of the first turn's geometry over R in a sweep below which it counts as settled."""
@@ -22,7 +22,7 @@ FIRST_TURN_TOLERANCE = 1e-3
 class WakeInTrim:
     """Relaxation wake of a trimmed or steady flight, with its periodic circulation."""
 
-    def __init__(self, model: Model, inflow_map: np.ndarray):
+    def __init__(self, model: CompiledRotor, inflow_map: np.ndarray):
         self.model = model
         self.n = model.steps_per_revolution
         self.psi = 2 * np.pi * np.arange(self.n) / self.n
@@ -44,7 +44,7 @@ class WakeInTrim:
         core = self.model.core
         q, q_dot = core.trim_motion(problem, x, self.n)
         y, _ = core.trim_state(problem, x, 0.0)
-        self.converge_motion(y, x[:4], q, q_dot, self.model.inflow.max_loops)
+        self.converge_motion(y, x[: self.model.n_controls], q, q_dot, self.model.inflow.max_loops)
         return self.inflow_map
 
     def converge_motion(
@@ -73,7 +73,7 @@ class WakeInTrim:
             self.lambda_far = self.lambda_far + options.inflow_relaxation * change
             self._solve_circulation(y, stick, q, q_dot)
             before, thrust = thrust, self._thrust()
-            thrust_change = abs(thrust - before) / abs(thrust)
+            thrust_change = abs(thrust - before) / max(abs(thrust), 1e-6 * model.tip_speed * model.rotor["radius"] ** 2)
             self.counters["relaxation_iterations"] += options.sweeps
             self.last = {
                 "inflow_change": rms,
@@ -111,7 +111,7 @@ class WakeInTrim:
             self.circulation, self.inflow_map = np.array(rows), self.lambda_far
             return
         self.circulation, self.inflow_map, _, failed = self.model.core.solve_circulation(
-            self.model.wake_options, y, stick, np.zeros(4), self.psi, q, q_dot, self.lambda_far, start
+            self.model.wake_options, y, stick, np.zeros(len(stick)), self.psi, q, q_dot, self.lambda_far, start
         )
         self.counters["circulation_not_converged"] += failed
 
@@ -120,7 +120,7 @@ class WakeInTrim:
         widths = np.asarray(self.model.rotor["widths"])
         return float(np.mean(self.circulation @ (self.model.stations * widths)))
 
-    def marching(self, model: Model) -> MarchingExchange:
+    def marching(self, model: CompiledRotor) -> MarchingExchange:
         """A time-marching wake of `model` started from this one."""
         return MarchingExchange(model, self)
 

@@ -63,7 +63,7 @@ def _nothing_starts(monkeypatch):
         ([*FLY, "--nonsense"], "--nonsense"),
         (["fly"], "MANEUVER"),
         (["sail"], "sail"),
-        (["tunnel", "--collective", "8 deg"], "not in this version yet"),
+        (["tunnel", "--collective", "8"], "collective"),
         (["validate", "--cases", "/nowhere"], "/nowhere"),
         (["validate", "K99", "--cases", "validation"], "K99"),
         (["converge", "azimuth"], "--vary"),

@@ -281,30 +281,37 @@ impl PyStand {
     }
 
     /// Loads of one blade on the hub (hub axes) and the air at its stations, for azimuths `psi` (m,) of the periodic motion
-    /// `x` and total inflow (m, n_stations): a dictionary of arrays.
+    /// `x` and total inflow (m, n_stations), None for the dynamic inflow in `x`: a dictionary of arrays.
     fn passages<'py>(
         &self,
         py: Python<'py>,
         problem: &PyStandProblem,
         x: PyReadonlyArray1<f64>,
         psi: PyReadonlyArray1<f64>,
-        inflow: PyReadonlyArray2<f64>,
+        inflow: Option<PyReadonlyArray2<f64>>,
     ) -> PyResult<Bound<'py, PyDict>> {
         let x = self.unknowns(problem, &x)?;
         let stand = &self.inner;
-        let (psi, inflow) = (psi.as_slice()?, inflow.as_array());
+        let psi = psi.as_slice()?;
         let n = stand.rotor.blade.stations.len();
-        if inflow.dim() != (psi.len(), n) {
-            return Err(invalid(format!("inflow {:?}, ({}, {n}) needed", inflow.dim(), psi.len())));
+        let held: Option<Vec<f64>> = inflow.map(|map| map.as_array().iter().copied().collect());
+        if held.as_ref().is_some_and(|map| map.len() != psi.len() * n) {
+            return Err(invalid(format!("inflow must have the shape ({}, {n})", psi.len())));
         }
+        if held.is_none() && matches!(problem.0.inflow, StandInflow::Map(_)) {
+            return Err(invalid("inflow is needed: the problem has none of its own"));
+        }
+        let i = stand.layout(&problem.0).inflow();
         let hub = stand.hub(problem.0.velocity, problem.0.rates);
         let mut loads: [Vec<f64>; 4] = Default::default();
-        const FIELDS: [&str; 7] = ["cl", "cd", "cm", "alpha", "mach", "circulation", "speed"];
-        let mut fields: [Vec<f64>; 7] = Default::default();
+        const FIELDS: [&str; 8] = ["cl", "cd", "cm", "alpha", "mach", "circulation", "speed", "inflow"];
+        let mut fields: [Vec<f64>; 8] = Default::default();
         for (row, &azimuth) in psi.iter().enumerate() {
-            let lambda = inflow.row(row).to_vec();
             let blade = stand.instant(&problem.0, &x, azimuth);
-            let given = BladeInflow::Stations(&lambda);
+            let given = match &held {
+                Some(map) => BladeInflow::Stations(&map[row * n..(row + 1) * n]),
+                None => BladeInflow::Disk([x[i], x[i + 1], x[i + 2]]),
+            };
             let b = stand.rotor.blade_loads(stand.air, &hub, azimuth, &blade.modal, &blade.control, &given);
             for (all, one) in loads.iter_mut().zip([b.force, b.moment, b.aero_force, b.aero_moment]) {
                 all.extend(one.array());
@@ -316,8 +323,9 @@ impl PyStand {
                 &blade.modal,
                 &blade.control,
                 &given,
-                |_, air, _| {
-                    let values = [air.cl, air.cd, air.cm, air.alpha, air.mach, air.circulation, air.speed];
+                |_, air, lambda| {
+                    let values =
+                        [air.cl, air.cd, air.cm, air.alpha, air.mach, air.circulation, air.speed, lambda];
                     for (field, value) in fields.iter_mut().zip(values) {
                         field.push(value);
                     }

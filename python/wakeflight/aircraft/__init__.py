@@ -3,5 +3,6 @@
 
 from .load import SHIPPED, load_aircraft
 from .model import Aircraft, Settings, SourceRow
+from .rotor import Rotor, load_rotor
 
-__all__ = ["SHIPPED", "Aircraft", "Settings", "SourceRow", "load_aircraft"]
+__all__ = ["SHIPPED", "Aircraft", "Rotor", "Settings", "SourceRow", "load_aircraft", "load_rotor"]

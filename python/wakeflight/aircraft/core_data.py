@@ -19,9 +19,9 @@ _KNOT = 1852.0 / 3600.0
 def fixed_parts(spec: AircraftFile) -> dict[str, Any]:
     """Everything that does not depend on the loading, tables read and checked for coverage."""
     return {
-        "blade": _blade(spec.rotor),
+        "blade": blade_data(spec.rotor, structure_data(spec.rotor)),
         "airfoil": _airfoil(spec.rotor),
-        "lag_damper": _lag_damper(spec.rotor),
+        "lag_damper": lag_damper_data(spec.rotor),
         "fuselage": _fuselage(spec),
         "stabilator": _surface(spec.stabilator, "alpha") if spec.stabilator else None,
         "stabilator_schedule": _schedule(spec.stabilator, spec.rigging.stick_travel[2]) if spec.stabilator else None,
@@ -82,7 +82,8 @@ def assembled(spec: AircraftFile, parts: dict[str, Any], loading: Loading, gross
     }
 
 
-def _blade(rotor: Rotor) -> dict[str, Any]:
+def blade_data(rotor: Any, structure: dict[str, list[float]]) -> dict[str, Any]:
+    """Blade of a rotor with its structure, tables checked for coverage."""
     blade, radius = rotor.blade, float(rotor.radius)
     geometry = blade.geometry
     stations = geometry.column("r", "m", radius)
@@ -98,7 +99,7 @@ def _blade(rotor: Rotor) -> dict[str, Any]:
         "root_station": root,
         "radius": radius,
         "root_cutout": float(blade.root_cutout),
-        "structure": _structure(rotor),
+        "structure": structure,
         "twist": {"x": stations, "y": geometry.column("twist", "rad")},
         "chord": {"x": stations, "y": chord},
         "pitch_axis_chord_fraction": float(blade.pitch_axis_chord_fraction),
@@ -111,7 +112,7 @@ def _blade(rotor: Rotor) -> dict[str, Any]:
     }
 
 
-def _structure(rotor: Rotor) -> dict[str, list[float]]:
+def structure_data(rotor: Any) -> dict[str, list[float]]:
     """Segments from the root to the tip, clipped; at a hinge up to 1 % of the radius may be massless."""
     table, radius = rotor.blade.structure, float(rotor.radius)
     root = float(rotor.blade.root_station)
@@ -166,7 +167,8 @@ def _airfoil(rotor: Rotor) -> dict[str, Any]:
     }
 
 
-def _lag_damper(rotor: Rotor) -> dict[str, Any] | None:
+def lag_damper_data(rotor: Any) -> dict[str, Any] | None:
+    """Lag damper of a rotor, None where it has none."""
     damper = rotor.lag_damper
     if damper is None:
         return None

@@ -26,11 +26,12 @@ def load_aircraft(name_or_path: str | Path = "uh60a", loading: str | None = None
     loading: a named mass and centre of gravity of the file; None is the file's `[loading]`.
     Raises InputError, one line naming file, key, value and what is allowed.
     """
-    path = _find(name_or_path)
-    return Aircraft(_validated(path), path, loading)
+    path = find(name_or_path)
+    return Aircraft(validated(path, parsed(path), AircraftFile), path, loading)
 
 
-def _find(name_or_path: str | Path) -> Path:
+def find(name_or_path: str | Path) -> Path:
+    """Path of a shipped aircraft by its name, or of a file; InputError where there is none."""
     if str(name_or_path) in SHIPPED:
         return Path(str(resources.files(__package__))) / str(name_or_path) / f"{name_or_path}.toml"
     path = Path(name_or_path)
@@ -40,20 +41,25 @@ def _find(name_or_path: str | Path) -> Path:
     return path
 
 
-def _validated(path: Path) -> AircraftFile:
+def parsed(path: Path) -> dict[str, Any]:
+    """Content of a TOML file; InputError where it cannot be read."""
     try:
         with path.open("rb") as stream:
-            data = tomllib.load(stream)
+            return tomllib.load(stream)
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as reason:
         raise InputError(f"{path}: not readable as TOML: {reason}") from reason
     except OSError as reason:
         raise InputError.of("aircraft", str(path), f"cannot be read: {reason.strerror}") from reason
+
+
+def validated(path: Path, data: dict[str, Any], schema: type[BaseModel]) -> Any:
+    """`data` of the file `path` as `schema`, its citations known; InputError names the first thing wrong."""
     sources = data.get("sources")
-    context = {"directory": path.parent, "sources": set(sources) if isinstance(sources, dict) else set()}
+    context = {"file": path, "directory": path.parent, "sources": set(sources) if isinstance(sources, dict) else set()}
     try:
-        spec = AircraftFile.model_validate(data, context=context)
+        spec = schema.model_validate(data, context=context)
     except ValidationError as reason:
-        raise _one_error(path, reason, data) from None
+        raise _one_error(path, reason, data, schema) from None
     for key, source in spec.sources.items():
         for reference in source.references:
             if reference not in known_keys():
@@ -62,7 +68,7 @@ def _validated(path: Path) -> AircraftFile:
     return spec
 
 
-def _one_error(path: Path, reason: ValidationError, data: dict) -> InputError:
+def _one_error(path: Path, reason: ValidationError, data: dict, schema: type[BaseModel]) -> InputError:
     """The first error of a validation in one line; a missing or unknown key goes before its consequences."""
     order = {"extra_forbidden": 0, "missing": 1}
     error = min(reason.errors(), key=lambda each: order.get(each["type"], 2))
@@ -73,7 +79,9 @@ def _one_error(path: Path, reason: ValidationError, data: dict) -> InputError:
     ]
     key = ".".join(location) or "file"
     if error["type"] == "extra_forbidden":
-        return InputError.of(key, "unknown key", f"allowed here: {', '.join(_allowed(location[:-1], data))}", file=path)
+        return InputError.of(
+            key, "unknown key", f"allowed here: {', '.join(_allowed(schema, location[:-1], data))}", file=path
+        )
     if error["type"] == "missing":
         return InputError.of(key, "missing", "must be given", file=path)
     message = error["msg"].removeprefix("Value error, ")
@@ -90,9 +98,9 @@ def _tag(data: dict) -> bool:
     return isinstance(group, dict) and group.get("kind") in ("tables", "factors")
 
 
-def _allowed(location: list[str], data: dict) -> list[str]:
+def _allowed(schema: type[BaseModel], location: list[str], data: dict) -> list[str]:
     """Keys of the group at `location`."""
-    model: Any = AircraftFile
+    model: Any = schema
     for depth, part in enumerate(location):
         if isinstance(model, type) and issubclass(model, BaseModel) and part in model.model_fields:
             candidates = _models(model.model_fields[part].annotation)

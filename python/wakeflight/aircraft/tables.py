@@ -115,6 +115,25 @@ def read_csv(path: Path, provenance: Provenance) -> TableFile:
     return TableFile(path, columns, "\n".join(comment), provenance)
 
 
+def in_place(columns: Any, provenance: Provenance, info: ValidationInfo) -> TableFile:
+    """Table written in the file itself: lists of numbers by the header of their column."""
+    if not isinstance(columns, dict) or not columns:
+        raise ValueError("has columns that are not lists of numbers by name")
+    lengths = set()
+    for name, values in columns.items():
+        real = isinstance(values, list) and all(
+            isinstance(v, int | float) and not isinstance(v, bool) and math.isfinite(v) for v in values
+        )
+        if not real or not values:
+            raise ValueError(f"has the column {name}, which is not a list of finite numbers")
+        lengths.add(len(values))
+    if len(lengths) != 1:
+        raise ValueError("has columns of different length")
+    path = (info.context or {}).get("file", Path(str(info.field_name)))
+    numbers = {name: tuple(float(v) for v in values) for name, values in columns.items()}
+    return TableFile(Path(f"{path}: {info.field_name}"), numbers, "", provenance)
+
+
 def _number(cell: str) -> float | None:
     try:
         number = float(cell)
@@ -124,8 +143,10 @@ def _number(cell: str) -> float | None:
 
 
 def _validate(entry: Any, info: ValidationInfo) -> TableFile:
-    allowed = "a table { table, source, confidence } naming a CSV file beside this one"
-    provenance = provenance_of(entry, info, {"table", "source", "confidence", "note"}, allowed)
+    allowed = "a table { table, source, confidence } naming a CSV file beside this one, or { columns, ... } in place"
+    provenance = provenance_of(entry, info, {"table", "columns", "source", "confidence", "note"}, allowed)
+    if "columns" in entry and "table" not in entry:
+        return in_place(entry["columns"], provenance, info)
     name = entry.get("table")
     if not isinstance(name, str) or not name:
         raise ValueError(f"must be {allowed}")
@@ -172,7 +193,7 @@ def grid(table: TableFile, x: str, y: str, value: str, unit: str) -> dict[str, l
 
 
 def by_mach(table: TableFile) -> dict[str, list]:
-    """Section coefficient {x, y, values}: alpha [rad] over +-180 deg, Mach over 0 to 0.9 or more."""
+    """Section coefficient {x, y, values}: alpha [rad] over +-180 deg, Mach from 0.3 or less (held below) to 0.9 or more."""
     alpha = table.column("alpha", "rad")
     ascending(table, "alpha", alpha)
     covering(table, "alpha", alpha, -math.pi, math.pi, "-180 to 180 deg")
@@ -181,6 +202,6 @@ def by_mach(table: TableFile) -> dict[str, list]:
     if not mach:
         raise table.error("M...", "missing", "columns by Mach number are needed, such as M0.0, M0.3")
     ascending(table, "M...", mach)
-    covering(table, "M...", mach, 0.0, 0.9, "Mach 0 to 0.9 or more")
+    covering(table, "M...", mach, 0.3, 0.9, "Mach 0.3 (or less) to 0.9 (or more)")
     values = [[table.columns[header][row] for header in headers] for row in range(len(alpha))]
     return {"x": alpha, "y": mach, "values": values}

@@ -26,6 +26,7 @@ pub struct CirculationSolution {
 }
 
 /// One evaluation: inflow, section circulation and slopes at `gamma`.
+#[derive(Clone)]
 struct Iterate {
     gamma: DVector<f64>,
     inflow: DVector<f64>,
@@ -45,7 +46,9 @@ struct Iterate {
 ///   Slopes are clipped to [floor, 0];
 /// * `tolerance` [m2/s], for example 1e-8 omega R^2.
 ///
-/// Newton steps (I - S N) dGamma = Gamma_section - Gamma, halved while the residual grows. Values of `section` that are
+/// Newton steps (I - S N) dGamma = Gamma_section - Gamma, halved while the residual grows; where they fail from the
+/// start given, once more from the circulation that sections of the far inflow's slope would have: a wide blade's start
+/// without near wake stalls its tip, and Newton does not come back from there. Values of `section` that are
 /// not finite are treated as an infinite residual and never accepted.
 pub fn solve_circulation(
     lambda_far: &[f64],
@@ -80,26 +83,57 @@ pub fn solve_circulation(
         Iterate { gamma, inflow, defect, slope, residual }
     };
 
-    let mut here = evaluate(DVector::from_column_slice(gamma_start));
-    let mut best = (here.gamma.clone(), here.inflow.clone(), here.residual);
+    let mut best = descend(&mut evaluate, &near, DVector::from_column_slice(gamma_start), tolerance);
+    if best.0.residual > tolerance {
+        let flat = evaluate(DVector::zeros(n));
+        if let Some(linear) = newton_step(&flat, &near) {
+            let again = descend(&mut evaluate, &near, linear, tolerance);
+            if again.0.residual < best.0.residual {
+                best = (again.0, best.1 + again.1);
+            }
+        }
+    }
+    let (found, iterations) = best;
+    Ok(CirculationSolution {
+        gamma: found.gamma.as_slice().to_vec(),
+        inflow: found.inflow.as_slice().to_vec(),
+        converged: found.residual <= tolerance,
+        residual: found.residual,
+        iterations,
+    })
+}
+
+/// (I - S N)^-1 (Gamma_section - Gamma), if it exists.
+fn newton_step(here: &Iterate, near: &DMatrix<f64>) -> Option<DVector<f64>> {
+    let n = here.gamma.len();
+    let mut jacobian = DMatrix::identity(n, n);
+    for i in 0..n {
+        for j in 0..n {
+            jacobian[(i, j)] -= here.slope[i] * near[(i, j)];
+        }
+    }
+    let step = jacobian.lu().solve(&here.defect)?;
+    step.iter().all(|v| v.is_finite()).then_some(step)
+}
+
+/// Damped Newton from `start`: the best iterate and the number of iterations.
+fn descend(
+    evaluate: &mut impl FnMut(DVector<f64>) -> Iterate,
+    near: &DMatrix<f64>,
+    start: DVector<f64>,
+    tolerance: f64,
+) -> (Iterate, usize) {
+    let mut here = evaluate(start);
+    let mut best = here.clone();
     let mut iterations = 0;
     let mut failures = 0;
-    while best.2 > tolerance
+    while best.residual > tolerance
         && here.residual.is_finite()
         && iterations < MAX_ITERATIONS
         && failures < MAX_FAILURES
     {
         iterations += 1;
-        let mut jacobian = DMatrix::identity(n, n);
-        for i in 0..n {
-            for j in 0..n {
-                jacobian[(i, j)] -= here.slope[i] * near[(i, j)];
-            }
-        }
-        let Some(step) = jacobian.lu().solve(&here.defect) else { break };
-        if step.iter().any(|v| !v.is_finite()) {
-            break;
-        }
+        let Some(step) = newton_step(&here, near) else { break };
         let mut fraction = 1.0;
         let mut candidate = evaluate(&here.gamma + &step);
         for _ in 0..MAX_HALVINGS {
@@ -118,17 +152,11 @@ pub fn solve_circulation(
             failures += 1;
         }
         here = candidate;
-        if here.residual < best.2 {
-            best = (here.gamma.clone(), here.inflow.clone(), here.residual);
+        if here.residual < best.residual {
+            best = here.clone();
         }
     }
-    Ok(CirculationSolution {
-        gamma: best.0.as_slice().to_vec(),
-        inflow: best.1.as_slice().to_vec(),
-        converged: best.2 <= tolerance,
-        residual: best.2,
-        iterations,
-    })
+    (best, iterations)
 }
 
 #[cfg(test)]

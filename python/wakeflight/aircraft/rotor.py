@@ -1,0 +1,236 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""A rotor alone, immutable: from a rotor file, or taken from an aircraft; what a stand is given."""
+
+from __future__ import annotations
+
+import copy
+import math
+from dataclasses import dataclass, replace
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+from ..errors import InputError
+from ..units import quantity
+from . import tables
+from .core_data import blade_data, structure_data
+from .core_data import lag_damper_data as damper
+from .load import SHIPPED, find, load_aircraft, parsed, validated
+from .model import Aircraft, Settings
+from .rotor_file import UNSTATED, RotorFile, RotorGroup, written_out
+
+FINEST_DEFAULT_STEPS = 36
+"""Fewest steps in a revolution where a file names no azimuth step (10 deg)."""
+
+_HINGE_MODES = {"hinged": 2, "flapping": 1, "clamped": 0}
+
+
+@dataclass(frozen=True)
+class Rotor:
+    """A rotor, SI and radians; make it with `load_rotor`."""
+
+    name: str
+    path: Path
+    data: dict[str, Any]
+    discretisation: Settings
+    references: tuple[str, ...] = ()
+    fixed_reference_pitch: bool = False
+
+    @property
+    def n_blades(self) -> int:
+        """Number of blades."""
+        return self.data["n_blades"]
+
+    @property
+    def radius(self) -> float:
+        """Radius [m]."""
+        return self.data["blade"]["radius"]
+
+    @property
+    def omega(self) -> float:
+        """Rotor speed [rad/s]."""
+        return self.data["omega"]
+
+    @property
+    def flexible(self) -> bool:
+        """Whether the blades bend and twist."""
+        return not self.data["blade"]["rigid"]
+
+    @property
+    def rotor(self) -> SimpleNamespace:
+        """The numbers an inflow model asks of an aircraft's rotor."""
+        blade = self.data["blade"]
+        root = SimpleNamespace(root_cutout=blade["root_cutout"], root_station=blade["root_station"])
+        return SimpleNamespace(n_blades=self.n_blades, radius=self.radius, omega=self.omega, blade=root)
+
+    @property
+    def chord(self) -> float:
+        """Chord at three quarters of the radius [m]."""
+        return _interpolated(self.data["blade"]["chord"], 0.75 * self.radius)
+
+    @property
+    def solidity(self) -> float:
+        """Blade area of `chord` over disk area, n_blades chord / (pi R)."""
+        return self.n_blades * self.chord / (math.pi * self.radius)
+
+    def twist(self, station: float) -> float:
+        """Built-in twist [rad] at `station` [m]."""
+        return _interpolated(self.data["blade"]["twist"], station)
+
+    def with_speed(self, omega: float) -> Rotor:
+        """The same rotor turning at `omega` [rad/s]."""
+        return replace(self, data={**self.data, "omega": float(omega)})
+
+    def with_rigid_blades(self) -> Rotor:
+        """The same rotor with blades that move about their hinges alone, or not at all where they are clamped."""
+        blade = {**self.data["blade"], "rigid": True}
+        settings = self.discretisation._replace(n_modes=_HINGE_MODES[blade["root"]])
+        return replace(self, data={**self.data, "blade": blade}, discretisation=settings)
+
+    def with_reference_pitch(self, pitch: float) -> Rotor:
+        """The same rotor with the modes of its blades at root pitch `pitch` [rad]."""
+        return replace(self, discretisation=self.discretisation._replace(reference_pitch=float(pitch)))
+
+
+def load_rotor(rotor: str | Path | Rotor | Aircraft = "uh60a") -> Rotor:
+    """Rotor from a rotor file, or that of an aircraft (its name, its file, or the loaded aircraft).
+
+    Raises InputError, one line naming file, key, value and what is allowed.
+    """
+    if isinstance(rotor, Rotor):
+        return rotor
+    if isinstance(rotor, Aircraft):
+        return _of_aircraft(rotor)
+    if not isinstance(rotor, str | Path):
+        raise InputError.of("aircraft", rotor, "must be an aircraft, a rotor, a shipped name or the path of a file")
+    path = find(rotor)
+    if str(rotor) in SHIPPED or "rigging" in parsed(path):
+        return _of_aircraft(load_aircraft(rotor))
+    return _of_file(path)
+
+
+def _of_aircraft(aircraft: Aircraft) -> Rotor:
+    # the stand's shaft is the z axis of the hub, its centre the origin
+    data = copy.deepcopy(aircraft.core_data()["rotor"])
+    data |= {"position": [0.0, 0.0, 0.0], "shaft_tilt_forward": 0.0, "shaft_tilt_lateral": 0.0}
+    data["blade"].setdefault("rigid", False)
+    settings = aircraft.discretisation
+    return Rotor(aircraft.name, aircraft.path, data, settings, aircraft.references, fixed_reference_pitch=True)
+
+
+def _of_file(path: Path) -> Rotor:
+    data = parsed(path)
+    if isinstance(data.get("rotor"), dict):
+        data["rotor"] = written_out(data["rotor"])
+    if isinstance(data.get("sources", {}), dict):
+        data["sources"] = {**data.get("sources", {}), "unstated": UNSTATED.model_dump()}
+    spec: RotorFile = validated(path, data, RotorFile)
+    group = spec.rotor
+    core = {
+        "n_blades": int(group.n_blades),
+        "omega": float(group.omega),
+        "position": [0.0, 0.0, 0.0],
+        "shaft_tilt_forward": 0.0,
+        "shaft_tilt_lateral": 0.0,
+        "tip_loss_factor": 1.0 if group.tip_loss_factor is None else float(group.tip_loss_factor),
+        "blade": _blade(group),
+        "airfoil": {**_grids(group, path), "cd_increment": float(group.airfoil.cd_increment or 0.0)},
+        "lag_damper": damper(group),
+    }
+    keys = {key for source in spec.sources.values() for key in source.references}
+    fixed = spec.discretisation.reference_pitch is not None
+    return Rotor(spec.name, path, core, _settings(spec, path), tuple(sorted(keys)), fixed)
+
+
+def _grids(group: RotorGroup, path: Path) -> dict[str, Any]:
+    try:
+        return group.airfoil.grids()
+    except ValueError as reason:
+        raise reason if isinstance(reason, InputError) else InputError(f"{path}: rotor.airfoil: {reason}") from reason
+
+
+def _blade(group: RotorGroup) -> dict[str, Any]:
+    """Blade as the core reads it; what a rigid blade does not have is written as what it then means."""
+    blade = group.blade
+    filled = {
+        "pitch_axis_chord_fraction": 0.25,
+        "control_stiffness": 1.0,
+        "km1_over_ktheta": 0.0,
+        "ka_over_ktheta": 0.0,
+        "structural_damping_ratio": 0.0,
+        "delta3": 0.0,
+        "precone": 0.0,
+    }
+    values = {key: getattr(blade, key) if getattr(blade, key) is not None else zero for key, zero in filled.items()}
+    whole = SimpleNamespace(
+        root=blade.root,
+        root_station=blade.root_station,
+        root_cutout=blade.root_cutout,
+        geometry=blade.geometry,
+        structure=blade.structure,
+        straight_tip=blade.straight_tip,
+        **values,
+    )
+    rotor = SimpleNamespace(radius=group.radius, blade=whole)
+    structure = structure_data(rotor) if blade.flexible else _rigid_structure(group)
+    return {**blade_data(rotor, structure), "rigid": not blade.flexible}
+
+
+def _rigid_structure(group: RotorGroup) -> dict[str, list[float]]:
+    """Mass along a rigid blade; stiffness is of no account."""
+    blade, radius = group.blade, float(group.radius)
+    root = float(blade.root_station)
+    if blade.structure is not None:
+        table = blade.structure
+        r_in, r_out = table.column("r_in", "m", radius), table.column("r_out", "m", radius)
+        tables.ascending(table, "r_in", r_in)
+        mass = table.column("mass", "kg/m")
+        x_cg = table.column("x_cg", "m") if table.has("x_cg") else [0.0] * len(mass)
+        i_theta = table.column("I_theta_cg", "kg m") if table.has("I_theta_cg") else [0.0] * len(mass)
+        if min(mass) < 0.0 or min(i_theta) < 0.0:
+            raise table.error("mass", f"{min(mass):g} kg/m", "must not be negative")
+        r_in[0], r_out[-1] = min(r_in[0], root), max(r_out[-1], radius)
+        kept = [i for i in range(len(r_in)) if r_out[i] > root and r_in[i] < radius]
+        columns = {"r_in": r_in, "r_out": r_out, "mass": mass, "x_cg": x_cg, "i_theta": i_theta}
+        columns = {key: [values[i] for i in kept] for key, values in columns.items()}
+        columns["r_in"] = [max(each, root) for each in columns["r_in"]]
+        columns["r_out"] = [min(each, radius) for each in columns["r_out"]]
+    else:
+        uniform = 0.0
+        if blade.mass is not None:
+            uniform = float(blade.mass)
+        elif blade.flap_inertia is not None:
+            uniform = 3.0 * float(blade.flap_inertia) / (radius - root) ** 3
+        columns = {"r_in": [root], "r_out": [radius], "mass": [uniform], "x_cg": [0.0], "i_theta": [0.0]}
+    n = len(columns["mass"])
+    return {**columns, "ei_flap": [1.0] * n, "ei_lag": [1.0] * n, "gj": [1.0] * n}
+
+
+def _settings(spec: RotorFile, path: Path) -> Settings:
+    given, n_blades = spec.discretisation, int(spec.rotor.n_blades)
+    if given.azimuth_step is None:
+        # whole numbers of steps between blades and in the near wake of 30 deg
+        least = math.lcm(12, n_blades)
+        step = 2.0 * math.pi / (least * math.ceil(FINEST_DEFAULT_STEPS / least))
+    else:
+        step = quantity(given.azimuth_step, "rad", f"{path}: discretisation.azimuth_step")
+    from ..inflow import check_azimuth_step
+
+    check_azimuth_step(step, n_blades, f"{path}: discretisation.azimuth_step")
+    pitch = 0.0
+    if given.reference_pitch is not None:
+        pitch = quantity(given.reference_pitch, "rad", f"{path}: discretisation.reference_pitch")
+    blade = spec.rotor.blade
+    n_modes = given.n_modes if blade.flexible else _HINGE_MODES[blade.root]
+    return Settings(n_modes, given.n_elements, given.n_gauss, step, pitch)
+
+
+def _interpolated(table: dict[str, list[float]], at: float) -> float:
+    """Piecewise linear, held beyond the ends."""
+    x, y = table["x"], table["y"]
+    if at <= x[0]:
+        return y[0]
+    for i in range(len(x) - 1):
+        if at <= x[i + 1]:
+            return y[i] + (at - x[i]) / (x[i + 1] - x[i]) * (y[i + 1] - y[i])
+    return y[-1]

@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""A rotor on a stand: disk maps, section loads, tip vortices."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from . import disk, style
+from .style import styled
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+MAPS = (
+    ("inflow", "inflow λ [–], down +", style.SEQUENTIAL, False),
+    ("circulation", "bound circulation Γ [m²/s]", style.SEQUENTIAL, False),
+    ("cl_m2", "C$_l$M² [–]", style.SEQUENTIAL, False),
+    ("alpha", "angle of attack [°]", style.SEQUENTIAL, False),
+)
+
+
+@styled
+def maps(data: xr.Dataset) -> Figure:
+    """Inflow, circulation, lift times Mach squared and angle of attack over the disk."""
+    figure = style.blank(6.4)
+    for axes, (name, label, cmap, symmetric) in zip(figure.subplots(2, 2).flat, MAPS, strict=True):
+        field = np.degrees(data[name]) if name == "alpha" else data[name]
+        # a map of one value by azimuth still needs a range
+        limits = style.levels(field.values, symmetric=symmetric)
+        filled = disk.draw(axes, field, limits, cmap)
+        disk.mark_directions(axes)
+        disk.tidy(figure.colorbar(filled, ax=axes, shrink=0.8), label, limits)
+    figure.suptitle(_title(data))
+    return figure
+
+
+@styled
+def sections(data: xr.Dataset) -> Figure:
+    """Lift coefficient and circulation along the blade (mean, range over the azimuth), lift over azimuth outboard."""
+    figure = style.blank(2.9)
+    left, middle, right = figure.subplots(1, 3)
+    for axes, name, label in ((left, "cl", "C$_l$ [–]"), (middle, "circulation", "Γ [m²/s]")):
+        field = data[name]
+        axes.fill_between(
+            data.station, field.min("azimuth"), field.max("azimuth"), color=style.COLORS[4], alpha=0.35, lw=0
+        )
+        axes.plot(data.station, field.mean("azimuth"), color=style.COLORS[0])
+        axes.set(xlabel="r/R", ylabel=label, xlim=(0, 1))
+        axes.set_title("mean, range over azimuth")
+    for r, color in zip((0.5, 0.75, 0.9), style.COLORS, strict=False):
+        at = data.cn_m2.interp(station=r)
+        turn = np.append(np.degrees(data.azimuth.values), 360.0)
+        right.plot(turn, np.append(at.values, at.values[0]), color=color, label=f"r/R = {r:g}")
+    right.set(xlabel="azimuth [°]", ylabel="C$_n$M² [–]", xlim=(0, 360), xticks=(0, 90, 180, 270, 360))
+    style.least_span(right, 0.02)
+    right.legend()
+    figure.suptitle(_title(data))
+    return figure
+
+
+@styled
+def wake(data: xr.Dataset) -> Figure:
+    """Tip vortices from the side and from above; distance from the shaft and height against age."""
+    radius = data.attrs["radius"]
+    figure = style.blank(5.6)
+    (side, top), (far, height) = figure.subplots(2, 2)
+    n = data.sizes["azimuth"]
+    n_blades = data.sizes["blade"]
+    for b in range(n_blades):
+        path = data.wake_path.isel(azimuth=b * n // n_blades) / radius
+        now = data.wake.isel(blade=b) / radius
+        x, y, z = (path.sel(xyz=c) for c in "xyz")
+        color = style.COLORS[b % 6]
+        side.plot(x, z, color=color)
+        top.plot(x, y, color=color, label=f"blade {b + 1}")
+        if data.attrs["averaged"] > 0:
+            side.plot(now.sel(xyz="x"), now.sel(xyz="z"), color=color, lw=0.5, alpha=0.6)
+            top.plot(now.sel(xyz="x"), now.sel(xyz="y"), color=color, lw=0.5, alpha=0.6)
+    side.plot((-1, 1), (0, 0), color="black", lw=2)
+    around = np.linspace(0, 2 * np.pi, 181)
+    top.plot(np.cos(around), np.sin(around), color=style.GREY, lw=0.7)
+    side.set(xlabel="x/R, aft +", ylabel="z/R, up +", title="from the side", aspect="equal")
+    top.set(xlabel="x/R, aft +", ylabel="y/R, right +", title="from above", aspect="equal")
+    top.legend()
+    age = np.degrees(data.age)
+    far.plot(age, data.tip_vortex_radius, color=style.COLORS[0])
+    far.set(xlabel="wake age [°]", ylabel="r/R", title="distance from the shaft, mean over azimuth")
+    height.plot(age, data.tip_vortex_height, color=style.COLORS[0])
+    height.set(xlabel="wake age [°]", ylabel="Δz/R", title="height above the release, mean over azimuth")
+    figure.suptitle(_title(data))
+    return figure
+
+
+def write(data: xr.Dataset, folder: Path) -> list[Path]:
+    """Write the figures that the data allow beside the result."""
+    written = [style.save(maps(data), folder / "maps.png"), style.save(sections(data), folder / "sections.png")]
+    if "wake" in data:
+        written.append(style.save(wake(data), folder / "wake.png"))
+    return written
+
+
+def _title(data: xr.Dataset) -> str:
+    a = data.attrs
+    averaged = f", mean of {a['averaged']} revolutions" if a["averaged"] else ""
+    return f"{a['aircraft']}, {a['inflow_model']}{averaged}: $C_T$ = {data.ct.item():.5f}, μ = {data.mu.item():.3f}"

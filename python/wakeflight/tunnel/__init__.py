@@ -1,0 +1,206 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""Tunnel: the verb that puts an isolated rotor on a stand, in hover, climb, descent or a wind from the front."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import fields, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ..errors import InputError
+from ..inflow import DynamicInflow, InflowModel
+from ..progress import Progress, Silent
+from .condition import (
+    StandCondition,
+    air,
+    control_equations,
+    higher_harmonics,
+    hub_velocity,
+    regime,
+    rotor_speed,
+    within,
+)
+from .model import StandModel, stand_inflow
+from .results import Tunnel
+from .solve import first_guess, solution
+
+if TYPE_CHECKING:
+    from ..aircraft import Aircraft, Rotor
+
+__all__ = ["Tunnel", "configured", "tunnel"]
+
+
+def tunnel(
+    aircraft: str | Path | Aircraft | Rotor = "uh60a",
+    collective: Any = None,
+    speed: Any = "0 kt",
+    shaft_angle: Any = "0 deg",
+    inflow: str | InflowModel = "time-marching",
+    *,
+    climb: Any = "0 m/s",
+    roll_rate: Any = "0 deg/s",
+    pitch_rate: Any = "0 deg/s",
+    collective_at: Any = "root",
+    lateral_cyclic: Any = None,
+    longitudinal_cyclic: Any = None,
+    higher_harmonics: Any = (),
+    thrust: Any = None,
+    ct: float | None = None,
+    torque: Any = None,
+    flapping: Any = None,
+    hub_roll: Any = None,
+    hub_pitch: Any = None,
+    omega: Any = None,
+    rpm: float | None = None,
+    altitude: Any = "0 m",
+    density: Any = None,
+    speed_of_sound: Any = None,
+    blades: str | None = None,
+    n_harmonics: int = 8,
+    revolutions: int | None = None,
+    averaged: int | None = None,
+    progress: Progress | Silent | None = None,
+) -> Tunnel:
+    """Isolated rotor on a stand: thrust, torque, flapping, section loads, inflow, tip-vortex path.
+
+    Angles, speeds, forces are text with units or pint quantities.
+
+    Parameters
+    ----------
+    aircraft : the rotor: a loaded `Rotor` or `Aircraft`, the name of a shipped aircraft, or the path of a rotor file or an
+        aircraft file. It turns counter-clockwise seen from above.
+    collective : blade pitch at `collective_at`; default 8 deg unless thrust, ct or torque is given.
+    speed, shaft_angle : wind from the front, and tilt of the shaft, positive aft (disk met from below, as in descent);
+        +90 deg is axial descent, -90 deg axial climb.
+    inflow : `time-marching`, `relaxation`, `dynamic`, or a configured model (which is then used as it is). A name takes the
+        defaults of the kind of condition (`wakeflight.tunnel.model.REGIME_OPTIONS`).
+    climb : speed of the hub up the shaft, on top of the wind; negative is descent.
+    roll_rate, pitch_rate : steady rates of the stand, right side down and nose up positive.
+    collective_at : `root` (the twist of the file is added to the collective) or a radius such as "0.75 R" (the
+        collective is the pitch there).
+    lateral_cyclic, longitudinal_cyclic : theta_1c, theta_1s of theta = theta_0 + theta_1c cos psi + theta_1s sin psi, pitch
+        of the blade at its own azimuth (a swashplate phase does not enter); 0 if nothing is asked for.
+    higher_harmonics : list of (order, cosine, sine) or {"order", "amplitude", "phase"}: amplitude cos(order psi - phase).
+    thrust, ct, torque : find the collective for aerodynamic thrust along the shaft, its coefficient, or shaft torque
+        (torque="zero": autorotation at the given rotor speed).
+    flapping : find both cyclics for `zero` first-harmonic flapping (first flap mode), or a pair (beta_1c, beta_1s).
+    hub_roll, hub_pitch : find both cyclics for mean hub moments, right side down and nose up positive.
+    omega, rpm : rotor speed, as text with a unit or as a number of revolutions per minute; the rotor's own.
+    altitude, density, speed_of_sound : standard atmosphere, and what a tunnel states instead.
+    blades : `rigid` takes flexibility away: blades move about their hinges alone, or not at all where clamped.
+    n_harmonics : harmonics of the blade motion.
+    revolutions, averaged : revolutions of the marching wake and, of them, the last ones in the means; defaults
+        12 and 4 forward, 24 and 12 in hover, 40 and 20 in axial descent. Ends early where the wake is periodic.
+
+    Returns
+    -------
+    Tunnel : `.ct`, `.cq`, `.cp`, `.figure_of_merit`, `.thrust`, `.torque`, `.power`, `.beta_0`, `.beta_1c`, `.beta_1s`,
+        `.theta_0`, `.theta_1c`, `.theta_1s`, `.hub_force`, `.hub_moment`, `.aero_force`, `.aero_moment`, `.settled`,
+        `.notes`, `.data` (xarray Dataset), `.wake_velocity(points)`, `.table()`, `.save(path)`.
+
+    Raises `InputError` for bad input and `NumericalFailure` where no solution is found. A wake that does not settle is
+    no error: `.settled` is False, `.notes` and the means' scatter say how much it moves.
+    """
+    started = time.perf_counter()
+    progress = progress or Silent()
+    given = {
+        name: value for name, value in locals().items() if name not in ("progress", "started", "aircraft", "inflow")
+    }
+    rotor, condition, model = _prepared(aircraft, inflow, given)
+    options = _marching_options(revolutions, averaged, model)
+    simple, wake = _compiled(rotor, condition, model, n_harmonics)
+    progress.phase("rotor on the stand", None)
+    found = solution(simple, wake, options, progress)
+    return Tunnel(found, time.perf_counter() - started)
+
+
+def configured(
+    aircraft: str | Path | Aircraft | Rotor, inflow: str, options: dict[str, Any], condition: dict[str, Any]
+) -> InflowModel:
+    """The model that `tunnel` would take for the name `inflow` in a condition, with `options` changed.
+
+    condition: speed, shaft_angle, climb, omega as `tunnel` takes them.
+    """
+    from ..aircraft import load_rotor
+
+    rotor = load_rotor(aircraft)
+    omega = rotor_speed(rotor, condition.get("omega"), None)
+    velocity = hub_velocity(condition["speed"], condition["shaft_angle"], condition["climb"])
+    model = stand_inflow(inflow, regime(velocity, omega * rotor.radius))
+    known = {field.name for field in fields(model)}
+    for name in options:
+        if name not in known:
+            raise InputError.of(name, options[name], f"not an option of {model.name} inflow")
+    return replace(model, **options)
+
+
+def _prepared(aircraft: Any, inflow: Any, given: dict[str, Any]) -> tuple[Rotor, StandCondition, InflowModel]:
+    """Rotor, condition and inflow model, everything checked; nothing is started."""
+    from ..aircraft import load_rotor
+
+    n_harmonics = given["n_harmonics"]
+    if isinstance(n_harmonics, bool) or not isinstance(n_harmonics, int) or not 1 <= n_harmonics <= 40:
+        raise InputError.of("n_harmonics", n_harmonics, "must be a whole number between 1 and 40")
+    rotor = load_rotor(aircraft)
+    if given["blades"] not in (None, "rigid", "flexible"):
+        raise InputError.of("blades", given["blades"], "allowed: rigid, flexible")
+    if given["blades"] == "rigid":
+        rotor = rotor.with_rigid_blades()
+    elif given["blades"] == "flexible" and not rotor.flexible:
+        raise InputError.of("blades", "flexible", f"the blades of {rotor.name} are rigid in its file")
+    rotor = rotor.with_speed(rotor_speed(rotor, given["omega"], given["rpm"]))
+    density, speed_of_sound = air(given["altitude"], given["density"], given["speed_of_sound"])
+    roll = within("roll_rate", given["roll_rate"], "rad/s", -10.0, 10.0, "rad/s")
+    pitch = within("pitch_rate", given["pitch_rate"], "rad/s", -10.0, 10.0, "rad/s")
+    condition = StandCondition(
+        velocity=hub_velocity(given["speed"], given["shaft_angle"], given["climb"]),
+        # hub axes point aft, right, up: right side down is about -x, nose up about +y
+        rates=(-roll, pitch, 0.0),
+        density=density,
+        speed_of_sound=speed_of_sound,
+        controls=control_equations(rotor, density, rotor.omega, given),
+        higher=higher_harmonics(given["higher_harmonics"], n_harmonics),
+        as_given={name: value if isinstance(value, int | float) else str(value) for name, value in given.items()},
+    )
+    model = stand_inflow(inflow, condition.regime(rotor.omega * rotor.radius))
+    model.step(rotor)
+    if not isinstance(model, DynamicInflow):
+        model.core_options(rotor)
+    return rotor, condition, model
+
+
+def _marching_options(revolutions: Any, averaged: Any, model: InflowModel) -> dict[str, int | None]:
+    for name, value in (("revolutions", revolutions), ("averaged", averaged)):
+        if value is None:
+            continue
+        if isinstance(value, bool) or not isinstance(value, int) or not 1 <= value <= 10000:
+            raise InputError.of(name, value, "must be a whole number between 1 and 10000")
+        if model.name != "time-marching":
+            raise InputError.of(name, value, f"has no meaning with {model.name} inflow")
+    if revolutions is not None and averaged is not None and averaged > revolutions:
+        raise InputError.of("averaged", averaged, f"must not be more than revolutions = {revolutions}")
+    return {"revolutions": revolutions, "averaged": averaged}
+
+
+def _compiled(
+    rotor: Rotor, condition: StandCondition, model: InflowModel, n_harmonics: int
+) -> tuple[StandModel, StandModel | None]:
+    """The rotor with dynamic inflow, and with the free wake where that is asked for."""
+    dynamic = model
+    if not isinstance(model, DynamicInflow):
+        dynamic = DynamicInflow(n_stations=model.n_stations, azimuth_step=None)
+    try:
+        simple = StandModel.build(rotor, condition, dynamic, n_harmonics)
+        if rotor.flexible and not rotor.fixed_reference_pitch:
+            # modes at the pitch the blade will have, where the file does not say
+            guess = first_guess(simple, simple.problem(None))[0]
+            rotor = rotor.with_reference_pitch(guess)
+            simple = StandModel.build(rotor, condition, dynamic, n_harmonics)
+        if dynamic is model:
+            return simple, None
+        return simple, StandModel.build(rotor, condition, model, n_harmonics)
+    except ValueError as reason:
+        if isinstance(reason, InputError):
+            raise
+        raise InputError(f"{rotor.path}: {reason}") from reason

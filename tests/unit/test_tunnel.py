@@ -1,0 +1,188 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""The rotor on a stand: its files, what it is asked for, what it gives."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import wakeflight as wf
+
+ROTORS = Path(__file__).parent / "data" / "rotors"
+CARADONNA = ROTORS / "caradonna-tung.toml"
+
+SHORT = """
+format = 1
+name = "Hinged"
+
+[rotor]
+n_blades = 3
+radius = "4 m"
+omega = "350 rpm"
+
+[rotor.blade]
+root = "{root}"
+flexible = false
+root_station = "{e} m"
+root_cutout = "0.5 m"
+{mass}
+geometry = {{ columns = {{ r_R = [0.0, 1.0], chord_m = [0.3, 0.3], twist_deg = [0.0, -8.0] }} }}
+
+[rotor.airfoil]
+name = "polar"
+polar = {{ lift_curve_slope = "5.73 1/rad", cd = [0.01, 0.0, 0.0] }}
+"""
+
+
+def written(folder, root="flapping", e=0.0, mass='flap_inertia = "150 kg m2"', text=SHORT):
+    path = folder / "rotor.toml"
+    path.write_text(text.format(root=root, e=e, mass=mass))
+    return path
+
+
+def test_a_clamped_rigid_rotor_has_no_modes_and_works():
+    stand = wf.tunnel(CARADONNA, collective="8 deg", inflow="dynamic")
+    assert stand.data.attrs["n_modes"] == 0
+    assert stand.flapping == (0.0, 0.0, 0.0)
+    assert 0.004 < stand.ct < 0.008
+    # uniform momentum inflow of the thrust found, but for the profile of the sections
+    assert stand.data.inflow_mean == pytest.approx(np.sqrt(stand.ct / 2), rel=1e-9)
+
+
+def test_every_variable_has_a_unit_and_a_meaning():
+    data = wf.tunnel(CARADONNA, inflow="dynamic").data
+    assert all("units" in v.attrs and "long_name" in v.attrs for v in data.variables.values())
+    assert data.ct == data.attrs["averaged"] + data.ct  # means of a periodic solution have no revolutions
+    for name in ("cl", "cl_m2", "cn", "alpha", "mach", "circulation", "inflow"):
+        assert data[name].dims == ("azimuth", "station")
+
+
+def test_hub_loads_are_the_sum_of_the_section_loads():
+    # thrust and torque of a clamped rigid rotor, from section coefficients alone
+    stand = wf.tunnel(CARADONNA, inflow="dynamic", collective="6 deg")
+    d = stand.data
+    speed = d.mach * d.attrs["speed_of_sound"]
+    # the angle of attack is that of the 3/4 chord: a coned blade pitches as it turns, Omega sin(precone)
+    radius = d.station * d.attrs["radius"]
+    inflow_angle = d.theta - d.alpha + np.sin(np.radians(0.5)) * 0.5 * d.chord / radius
+    q = 0.5 * d.attrs["density"] * speed**2 * d.chord * d.width
+    cone = np.cos(np.radians(0.5))
+    up = (q * (d.cl * np.cos(inflow_angle) - d.cd * np.sin(inflow_angle))).mean("azimuth").sum("station") * cone
+    back = q * (d.cl * np.sin(inflow_angle) + d.cd * np.cos(inflow_angle)) * d.station * d.attrs["radius"] * cone
+    assert 2 * up == pytest.approx(stand.thrust, rel=1e-4)
+    assert 2 * back.mean("azimuth").sum("station") == pytest.approx(stand.torque, rel=1e-4)
+
+
+def test_power_is_that_of_the_hub_loads():
+    # air torque against hub torque with the blades' inertia: a periodic motion takes no power of its own
+    stand = wf.tunnel("uh60a", ct=0.006, speed="80 kt", shaft_angle="-3 deg", flapping="zero", inflow="dynamic")
+    assert -stand.hub_moment[2] * stand.model.omega == pytest.approx(stand.power, rel=1e-6)
+    assert stand.ct == pytest.approx(0.006, rel=1e-6)
+    assert abs(stand.beta_1c) < 1e-7 and abs(stand.beta_1s) < 1e-7
+
+
+def test_a_positive_shaft_angle_meets_the_air_from_below():
+    angles = {
+        angle: wf.tunnel(CARADONNA, speed="20 m/s", shaft_angle=angle, inflow="dynamic")
+        for angle in ("-5 deg", "5 deg")
+    }
+    assert angles["5 deg"].data.mu_z > 0 > angles["-5 deg"].data.mu_z
+    assert angles["5 deg"].ct > angles["-5 deg"].ct
+    descent = wf.tunnel(CARADONNA, speed="5 m/s", shaft_angle="90 deg", inflow="dynamic")
+    same = wf.tunnel(CARADONNA, climb="-5 m/s", inflow="dynamic")
+    assert descent.ct == pytest.approx(same.ct, rel=1e-9)
+    assert descent.data.attrs["regime"] == "descent"
+
+
+def test_higher_harmonics_turn_the_blade_as_asked():
+    pitch = wf.tunnel(
+        CARADONNA, inflow="dynamic", higher_harmonics=[{"order": 3, "amplitude": "0.8 deg", "phase": "300 deg"}]
+    ).data.theta
+    expected = np.radians(8.0) + np.radians(0.8) * np.cos(3 * pitch.azimuth - np.radians(300))
+    assert np.allclose(pitch, expected, atol=1e-12)
+
+
+def test_the_collective_may_be_stated_at_a_radius():
+    root = wf.tunnel("uh60a", collective="18 deg", inflow="dynamic", blades="rigid")
+    twist = np.degrees(root.data.theta_75.item()) - 18.0
+    at_75 = wf.tunnel(
+        "uh60a", collective=f"{18.0 + twist} deg", collective_at="0.75 R", inflow="dynamic", blades="rigid"
+    )
+    assert at_75.ct == pytest.approx(root.ct, rel=1e-9)
+
+
+def test_autorotation_has_no_torque():
+    stand = wf.tunnel(
+        "uh60a", torque="zero", speed="70 kt", shaft_angle="18 deg", inflow="dynamic", blades="rigid", flapping="zero"
+    )
+    assert abs(stand.cq) < 1e-9
+    assert stand.ct > 0.002
+
+
+def test_rigid_flapping_in_hover_follows_the_cyclic_ninety_degrees_later(tmp_path):
+    # central hinge: the tip-path plane is parallel to the no-feathering plane, beta_1c = -theta_1s, beta_1s = theta_1c
+    path = written(tmp_path)
+    stand = wf.tunnel(path, "10 deg", lateral_cyclic="1 deg", longitudinal_cyclic="-2 deg", inflow="dynamic")
+    assert stand.model.rotor["frequencies"] == pytest.approx([stand.model.omega])
+    assert np.degrees(stand.beta_1s) == pytest.approx(1.0, abs=0.05)
+    assert np.degrees(stand.beta_1c) == pytest.approx(2.0, abs=0.05)
+
+
+def test_a_wake_of_three_blades_and_its_velocity(tmp_path):
+    short = wf.RelaxationWake(turns=2, azimuth_step="20 deg", near_wake_angle="20 deg", n_stations=10)
+    stand = wf.tunnel(written(tmp_path), "10 deg", speed="30 m/s", flapping="zero", inflow=short)
+    assert stand.data.wake.sizes == {"blade": 3, "age": 37, "xyz": 3}
+    assert stand.data.wake_path.dims == ("azimuth", "age", "xyz")
+    velocity = stand.wake_velocity([[0.0, 0.0, 1.0], [8.0, 0.0, -0.5]])
+    assert velocity.shape == (2, 3) and np.all(velocity[:, 2] < 0)
+
+
+@pytest.mark.parametrize(
+    ("given", "named"),
+    [
+        ({"collective": 8}, "collective = 8"),
+        ({"collective": "8 deg", "thrust": "100 N"}, "thrust"),
+        ({"speed": "20 deg"}, "speed"),
+        ({"shaft_angle": "100 deg"}, "shaft_angle"),
+        ({"flapping": "zero"}, "clamped and rigid"),
+        ({"inflow": "vortex"}, "inflow"),
+        ({"higher_harmonics": [(1, "1 deg", "0 deg")]}, "order"),
+        ({"rpm": -3}, "rpm"),
+        ({"blades": "soft"}, "blades"),
+        ({"density": "1.2"}, "density"),
+        ({"revolutions": 3, "inflow": "dynamic"}, "revolutions"),
+        ({"ct": "much"}, "ct"),
+        ({"collective_at": "0.75"}, "collective_at"),
+    ],
+)
+def test_bad_requests_name_the_field(given, named):
+    with pytest.raises(wf.InputError, match=named) as error:
+        wf.tunnel(CARADONNA, **{"inflow": "dynamic", **given})
+    assert "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "named"),
+    [
+        ("n_blades = 3", "n_blades = 9", "rotor.n_blades"),
+        ("n_blades = 3", "", "rotor.n_blades"),
+        ('radius = "4 m"', 'radius = "4"', "rotor.radius"),
+        ('"350 rpm"', '"350 kt"', "rotor.omega"),
+        ('flap_inertia = "150 kg m2"', "", "needs structure, mass or flap_inertia"),
+        ("flexible = false", "flexible = true", "structure is missing"),
+        ("chord_m = [0.3, 0.3]", "chord_m = [0.3]", "different length"),
+        ("r_R = [0.0, 1.0]", "r_R = [0.3, 1.0]", "must cover"),
+        ("cd = [0.01, 0.0, 0.0]", "cd = [0.01]", "polar.cd"),
+        ('root = "flapping"', 'root = "teetering"', "rotor.blade.root"),
+        ("format = 1", "format = 1\nspan = 3", "span"),
+    ],
+)
+def test_a_bad_rotor_file_names_file_and_key(tmp_path, old, new, named):
+    path = written(tmp_path)
+    text = path.read_text()
+    assert old in text
+    path.write_text(text.replace(old, new))
+    with pytest.raises(wf.InputError, match=named) as error:
+        wf.load_rotor(path)
+    assert str(path) in str(error.value)
+    assert "\n" not in str(error.value)
