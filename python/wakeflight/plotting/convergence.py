@@ -71,13 +71,15 @@ def _histories(study: xr.Dataset) -> Figure:
 
 
 def _curves(axes: Axes, study: xr.Dataset, error: str, names: Sequence[str], scales: np.ndarray) -> None:
-    """A line per quantity that changes at all."""
+    """A line per quantity that changes at all; settings are named beside the uppermost points."""
     cost = study["cpu_seconds"].values
+    top = np.zeros(cost.size)
     for k, (name, scale) in enumerate(zip(names, scales, strict=True)):
         one = study.sel(quantity=name)
         known = (one["error_known"].values > 0) & (one[error].values > 1e-12) & (scale > 0)
         if not known.any():
             continue
+        top[known] = np.maximum(top[known], one[error].values[known] / scale)
         extrapolated = float(one["order"]) > 0
         label = f"{name}, order {float(one['order']):.1f}" if extrapolated else name
         axes.plot(
@@ -90,42 +92,49 @@ def _curves(axes: Axes, study: xr.Dataset, error: str, names: Sequence[str], sca
             markerfacecolor=style.COLORS[k % len(style.COLORS)] if extrapolated else "white",
             label=label,
         )
+    for seconds, value, setting in zip(cost, top, study["setting"].values, strict=True):
+        if value > 0.0:
+            place, offset, rotation = ("data", "data"), (5, 3), 0
+        else:  # the finest, whose error is not known: a line where its cost lies
+            axes.axvline(seconds, color=style.GREY, linewidth=0.5, linestyle=":")
+            place, offset, rotation, value = ("data", "axes fraction"), (1, -2), 90, 1.0
+        axes.annotate(
+            str(setting),
+            (seconds, value),
+            xycoords=place,
+            xytext=offset,
+            textcoords="offset points",
+            rotation=rotation,
+            va="top" if rotation else "bottom",
+            fontsize=7,
+            color=style.GREY,
+        )
 
 
 def _finish(panels: Sequence[Axes], bottom: Sequence[Axes], study: xr.Dataset, legends: Sequence[Axes] = ()) -> None:
-    from matplotlib.ticker import NullFormatter, ScalarFormatter
+    from matplotlib.ticker import FixedLocator, NullLocator, ScalarFormatter
 
     cost = study["cpu_seconds"].values
+    low, high = 0.75 * cost.min(), 1.6 * cost.max()
     for axes in panels:
-        axes.set(xscale="log", yscale="log", xlim=(0.75 * cost.min(), 1.35 * cost.max()))
-        # the settings themselves are the marks of the axis above
-        for seconds, label in zip(cost, study["setting"].values, strict=True):
-            axes.axvline(seconds, color=style.GREY, linewidth=0.5, linestyle=":")
-            axes.annotate(
-                str(label),
-                (seconds, 1.0),
-                xycoords=("data", "axes fraction"),
-                xytext=(1, -2),
-                textcoords="offset points",
-                rotation=90,
-                va="top",
-                fontsize=7,
-                color=style.GREY,
-            )
+        axes.set(xscale="log", yscale="log", xlim=(low, high))
+        axes.margins(y=0.12)
+        axes.xaxis.set_major_locator(FixedLocator(_ticks(low, high)))
+        axes.xaxis.set_minor_locator(NullLocator())
+        axes.xaxis.set_major_formatter(ScalarFormatter())
         if not legends and axes.get_legend_handles_labels()[0]:
             axes.legend(fontsize=7)
     for axes in legends:
         axes.legend(fontsize=7, loc="center left", bbox_to_anchor=(1.0, 0.5))
     for axes in bottom:
         axes.set_xlabel("processor time of the run [s]")
-        axes.xaxis.set_major_formatter(ScalarFormatter())
-        axes.xaxis.set_minor_formatter(NullFormatter())
-        axes.set_xticks(_ticks(cost))
 
 
-def _ticks(cost: np.ndarray) -> list[float]:
-    """Round numbers (1, 2, 5) over the range of cost."""
-    low, high = 0.75 * cost.min(), 1.35 * cost.max()
+def _ticks(low: float, high: float) -> list[float]:
+    """Round numbers between two costs: 1, 2, 5 of each decade, more of them in a narrow range."""
     decades = range(int(np.floor(np.log10(low))), int(np.ceil(np.log10(high))) + 1)
-    ticks = [m * 10.0**d for d in decades for m in (1, 2, 5) if low <= m * 10.0**d <= high]
-    return ticks or [float(f"{np.median(cost):.2g}")]
+    for steps in ((1, 2, 5), (1, 1.5, 2, 3, 4, 5, 6, 7, 8, 9)):
+        ticks = [m * 10.0**d for d in decades for m in steps if low <= m * 10.0**d <= high]
+        if len(ticks) >= 3:
+            break
+    return ticks
