@@ -424,17 +424,22 @@ def _harmonic(text: str) -> dict[str, Any]:
     return {"order": int(parts[0]), "amplitude": parts[1], "phase": parts[2]}
 
 
-def _not_yet(name: str) -> None:
-    def command() -> None:
-        raise InputError(f"not in this version yet: {name}")
+@app.command()
+def paper(
+    redraw: Annotated[bool, typer.Option("--redraw", help="draw anew from the flights a former call left")] = False,
+    jobs: Annotated[int | None, typer.Option("--jobs", help="flights at a time; as many as cores")] = None,
+    out: Out = None,
+) -> None:
+    """Fly everything Ribera and Celi reported in 2004, judge every statement, write figures and report.html."""
+    if jobs is not None and not 1 <= jobs <= 64:
+        raise InputError.of("--jobs", jobs, "must lie between 1 and 64")
+    folder = _writable(out or Path("runs/paper"))
+    from .paper import reproduce
+    from .progress import Progress
 
-    command.__doc__ = "Not in this version yet."
-    ignore = {"ignore_unknown_options": True, "allow_extra_args": True}
-    app.command(name, context_settings=ignore, add_help_option=True)(command)
-
-
-for _name in ("paper",):
-    _not_yet(_name)
+    with Progress() as progress:
+        path = reproduce(_folder(folder), redraw, jobs, progress)
+    print(f"wrote {path}")
 
 
 def main(arguments: list[str] | None = None) -> None:

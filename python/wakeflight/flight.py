@@ -155,6 +155,7 @@ class ConvergencePhase:
     before: np.ndarray | None = None
     after: np.ndarray | None = None
     seconds: float = 0.0
+    segment_evaluations: int = 0
 
 
 def fly(
@@ -340,4 +341,5 @@ def converge(marching: MarchingExchange, start: Trim, progress: Progress | Silen
         progress.advance(1, f"inflow changes by {change:.1e} of its mean")
     marching.step_index = 0
     phase.seconds = time.perf_counter() - clock
+    phase.segment_evaluations = marching.segment_evaluations
     return phase

@@ -166,7 +166,11 @@ class Recorder:
         wake = getattr(self.source, "wake", None)
         if wake is None:
             return {}
-        counters = {"segment_evaluations": wake.segment_evaluations}
+        counters = {
+            "segment_evaluations": wake.segment_evaluations,
+            "segment_evaluations_trim": self.start.wake.counters["wake_segment_evaluations"],
+            "relaxation_iterations_trim": self.start.wake.counters["relaxation_iterations"],
+        }
         if hasattr(wake, "unconverged"):
             counters["unconverged_revolutions"] = wake.unconverged
             counters["relaxation_updates"] = wake.updates
@@ -228,6 +232,7 @@ def convergence_attributes(phase: ConvergencePhase) -> dict[str, Any]:
         return {}
     return {
         "convergence_change": [round(c, 12) for c in phase.change],
+        "segment_evaluations_convergence": phase.segment_evaluations,
         "convergence_lift_drift": phase.circulation_lift[-1] / phase.circulation_lift[0] - 1.0,
     }
 

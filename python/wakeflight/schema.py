@@ -326,5 +326,8 @@ ATTRIBUTES: tuple[Attribute, ...] = (
     Attribute("relaxation_iterations", "relaxation iterations"),
     Attribute("unconverged_revolutions", "revolutions whose inflow-circulation loop did not converge"),
     Attribute("segment_evaluations", "wake segment evaluations"),
+    Attribute("segment_evaluations_trim", "wake segment evaluations: trim"),
+    Attribute("segment_evaluations_convergence", "wake segment evaluations: convergence phase"),
+    Attribute("relaxation_iterations_trim", "relaxation iterations: trim"),
     Attribute("warnings", "warnings"),
 )

@@ -84,7 +84,7 @@ def _nothing_starts(monkeypatch):
         (["converge", "modes", "--vary", "modes", "--values", "3, 4"], "elements"),
         (["converge", "sailing", "--vary", "modes", "--values", "3, 4"], "sailing"),
         (["converge", "roll-reversal", "--vary", "tolerance", "--values", "0, 1e-4"], "tolerance"),
-        (["paper"], "not in this version yet"),
+        (["paper", "--jobs", "0"], "--jobs"),
         (["compare", "arrested-descent", "--speed", "80"], "speed"),
         (["trim", "--speed", "80"], "speed"),
         (["trim", "--sideslip", "5 deg", "--bank", "5 deg"], "sideslip"),

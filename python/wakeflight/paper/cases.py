@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""Flights the paper is judged by: what each is called and how it differs from the others.
+
+Within a comparison nothing differs but what is compared: the inflow model, the convergence phase, or the
+cap on the iterations of the relaxation wake.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from ..inflow import DynamicInflow, RelaxationWake, TimeMarchingWake
+
+if TYPE_CHECKING:
+    from ..inflow import InflowModel
+
+MANEUVERS = ("arrested-descent", "roll-reversal")
+MODELS: dict[str, InflowModel] = {
+    "dynamic": DynamicInflow(),
+    "relaxation": RelaxationWake(),
+    "time-marching": TimeMarchingWake(),
+}
+"""The paper's three, in the order of its legends; every option is the default."""
+
+CAPS = (5, 10, 20)
+"""Most iterations of the relaxation wake in a revolution; the flights of the figures use the default."""
+UNTIL_CONVERGED = 400
+"""A cap so high that it is never what ends the iteration of a revolution that converges at all."""
+
+
+@dataclass(frozen=True)
+class Case:
+    """One flight: name (also that of its file), manoeuvre, inflow model, and a rough cost for the order of work."""
+
+    name: str
+    maneuver: str
+    inflow: InflowModel
+    cost: float = 1.0
+    condition: str | None = None
+
+
+def base_cases() -> list[Case]:
+    """Both manoeuvres with the three models at the paper's settings."""
+    length = {"arrested-descent": 12, "roll-reversal": 36}
+    return [
+        Case(f"{maneuver}/{name}", maneuver, model, length[maneuver] * (1 if name == "dynamic" else 2))
+        for maneuver in MANEUVERS
+        for name, model in MODELS.items()
+    ]
+
+
+def question_cases() -> list[Case]:
+    """The convergence phase left out, and the caps of the relaxation wake, in both manoeuvres."""
+    cases = []
+    for maneuver, length in zip(MANEUVERS, (12, 36), strict=True):
+        cases.append(
+            Case(f"{maneuver}/no-convergence", maneuver, TimeMarchingWake(convergence_revolutions=0), 2 * length)
+        )
+        for cap in (*CAPS, UNTIL_CONVERGED):
+            if cap != RelaxationWake().max_loops_response:
+                cases.append(
+                    Case(cap_name(maneuver, cap), maneuver, RelaxationWake(max_loops_response=cap), 2 * length + cap)
+                )
+    return cases
+
+
+def cap_name(maneuver: str, cap: int) -> str:
+    """Name of the relaxation flight with this cap; the default cap is the flight of the figures."""
+    if cap == RelaxationWake().max_loops_response:
+        return f"{maneuver}/relaxation"
+    return f"{maneuver}/relaxation-{'converged' if cap == UNTIL_CONVERGED else f'cap-{cap}'}"

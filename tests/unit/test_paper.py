@@ -1,0 +1,111 @@
+"""The paper's statements, figures and view, on runs whose numbers are known."""
+
+import base64
+import json
+
+import numpy as np
+import paper_runs
+import pytest
+import synthetic
+import xarray as xr
+
+from wakeflight.paper import cases, cost, quantities, viewer
+from wakeflight.paper.figures import FIGURES
+from wakeflight.paper.statements import VERDICTS, counts, judge
+from wakeflight.paper.statements.conclusions import lag
+from wakeflight.paper.statements.verdict import Statement, larger, within
+
+
+@pytest.fixture(scope="module")
+def runs():
+    return paper_runs.runs()
+
+
+def test_a_verdict_follows_from_the_conditions():
+    met, missed = within("x", 1.0, 0.0, 2.0), within("x", 3.0, 0.0, 2.0)
+    assert [Statement("", "", c).verdict for c in ((met, met), (met, missed), (missed, missed), ())] == list(VERDICTS)
+
+
+def test_a_difference_below_the_resolution_orders_nothing():
+    assert larger("x", ("a", 1.02), ("b", 1.0)).met
+    assert not larger("x", ("a", 1.005), ("b", 1.0)).met
+    assert "equal" in larger("x", ("a", 1.005), ("b", 1.0)).measured
+    assert larger("x", ("a", -1.0), ("b", -1.02)).met
+
+
+def test_nothing_differs_between_compared_runs_but_what_is_compared():
+    base = {case.name: case.inflow for case in cases.base_cases()}
+    shared = set(vars(cases.MODELS["relaxation"])) & set(vars(cases.MODELS["time-marching"]))
+    for name in shared:
+        assert getattr(cases.MODELS["relaxation"], name) == getattr(cases.MODELS["time-marching"], name)
+    for case in cases.question_cases():
+        reference = base[f"{case.maneuver}/{case.inflow.name}"]
+        changed = {name for name, value in vars(case.inflow).items() if value != getattr(reference, name)}
+        assert changed in ({"convergence_revolutions"}, {"max_loops_response"})
+
+
+def test_every_figure_of_the_paper_is_drawn_under_its_number():
+    numbers = {int(figure.name.split("-")[1][:2]) for figure in FIGURES}
+    assert numbers == set(range(3, 20))
+
+
+def disk(function):
+    psi, station = np.arange(36) * np.pi / 18, synthetic.stations()
+    return xr.DataArray(
+        function(psi[:, None], station) * np.ones((36, 20)), {"psi": psi, "station": station}, ("psi", "station")
+    )
+
+
+def test_means_over_sectors_are_area_means():
+    assert quantities.sector_mean(disk(lambda psi, r: 2.0), (90, 180), (0.6, 1.0)) == pytest.approx(2.0)
+    aft = quantities.sector_mean(disk(lambda psi, r: np.cos(psi)), (-90, 90))
+    assert aft == pytest.approx(2 / np.pi, rel=0.06)
+    assert quantities.sector_mean(disk(lambda psi, r: r), radius=(0.0, 1.0)) == pytest.approx(2 / 3, rel=0.02)
+    assert quantities.area_above(disk(lambda psi, r: np.sin(psi)), 1e-9) == pytest.approx(0.5, abs=0.03)
+
+
+def test_a_straight_centre_line_has_no_bend():
+    age = np.arange(145) * np.pi / 18
+    helix = np.stack([0.185 * age + np.cos(age), np.sin(age), -0.03 * age], axis=1)
+    assert abs(quantities.bend(helix)) < 1e-6
+    curved = helix + np.stack([0 * age, 0 * age, 0.002 * age**2], axis=1)
+    assert abs(quantities.bend(curved)) > 0.02
+
+
+def test_a_delayed_history_shows_its_lag(runs):
+    run = runs["arrested-descent/time-marching"]
+    late = run.copy()
+    late["inflow_mean"] = run["inflow_mean"].copy(
+        data=np.concatenate([[run.inflow_mean[0]] * 18, run.inflow_mean[:-18]])
+    )
+    assert lag(late, run, "inflow_mean") == pytest.approx(0.5, abs=1 / 36)
+
+
+def test_the_counter_of_a_relaxation_wake_goes_on_from_its_trim(runs):
+    relaxed, marched = runs["arrested-descent/relaxation"], runs["arrested-descent/time-marching"]
+    assert cost.work(relaxed).flight == relaxed.attrs["segment_evaluations"] - 40_000_000
+    assert cost.work(marched).flight == marched.attrs["segment_evaluations"] - 60_000_000
+
+
+def test_every_statement_is_judged(runs):
+    table = judge(runs)
+    assert sum(counts(table).values()) == len(table) > 40
+    assert [row.key for row in table if not row.conditions] == ["conclusion 6"]
+
+
+def test_the_view_holds_the_wake_to_a_millimetre(runs):
+    flights = {"arrested-descent": {m: runs[f"arrested-descent/{m}"] for m in cases.MODELS}}
+    rotor = {"shaft_tilt": 0.05, "hinge_offset": 0.05, "root_cutout": 0.1, "chord": 0.06}
+    made = json.loads(viewer.data(flights, rotor))["maneuvers"]["arrested-descent"]["models"]
+    assert [model["name"] for model in made] == ["dynamic inflow", "relaxation", "time marching"]
+    wake = np.frombuffer(base64.b64decode(made[2]["wake"]), "<i2") / viewer.FULL * made[2]["reach"]
+    kept = flights["arrested-descent"]["time-marching"]["wake"].values.ravel() / synthetic.RADIUS
+    assert np.max(np.abs(wake - kept)) * synthetic.RADIUS < 1e-3
+
+
+def test_inflow_over_the_disk_is_found_from_the_blades():
+    run = synthetic.run("dynamic")
+    psi = run["azimuth"].values[:, :, None]
+    field = 0.02 + run["station"].values * (0.01 * np.cos(psi) - 0.003 * np.sin(psi))
+    run["inflow"] = run["inflow"].copy(data=field)
+    assert viewer.disk_inflow(run, np.array([7]))[0] == pytest.approx([0.02, 0.01, -0.003])
