@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from . import conclusions, descent, numbers, roll
-from .reasons import REASONS
+from .reasons import reason
 from .verdict import HOLDS, NO_CLAIM, VERDICTS, Condition, Statement, counts
 
 if TYPE_CHECKING:
@@ -30,7 +30,4 @@ def judge(runs: Mapping[str, xr.Dataset]) -> list[Statement]:
         *numbers.statements(runs)[1:],
         *conclusions.statements(runs),
     ]
-    return [
-        row if row.verdict in (HOLDS, NO_CLAIM) else replace(row, why=REASONS.get((row.key, row.claim[:24]), ""))
-        for row in table
-    ]
+    return [row if row.verdict in (HOLDS, NO_CLAIM) else replace(row, why=reason(row.key, runs)) for row in table]

@@ -69,7 +69,7 @@ def rotor_period(runs: Runs) -> Statement:
     """Period of the rotor."""
     run = runs["roll-reversal/time-marching"]
     return Statement(
-        "text",
+        "text, period",
         "36 revolutions take 8.38 s: a revolution lasts 0.2328 s.",
         (within("period of the rotor", period(run), 0.2328 * 0.995, 0.2328 * 1.005, "s"),),
     )
@@ -79,7 +79,7 @@ def condition(runs: Runs) -> Statement:
     """The flight condition."""
     attrs = runs["arrested-descent/relaxation"].attrs
     return Statement(
-        "text",
+        "text, condition",
         "80 kt is µ = 0.185; 16 000 lb at 5250 ft is C_T/σ = 0.071.",
         (
             within("µ at trim", float(attrs["mu"]), 0.183, 0.188),
@@ -93,7 +93,7 @@ def exchange(runs: Runs) -> Statement:
     marched, relaxed = runs["roll-reversal/time-marching"], runs["roll-reversal/relaxation"]
     step = np.rad2deg(np.diff(np.unwrap(marched["azimuth"].values[:, 0])))
     return Statement(
-        "text",
+        "text, exchange",
         "Time marching exchanges data every 10° of azimuth; relaxation is updated once per revolution.",
         (
             within("azimuth between exchanges, largest", float(step.max()), 9.999, 10.001, "deg"),
@@ -117,7 +117,7 @@ def convergence(runs: Runs) -> Statement:
     change = changes(runs["arrested-descent/time-marching"])
     enough = next((k + 1 for k, x in enumerate(change) if x < SETTLED), len(change) + 1)
     return Statement(
-        "text",
+        "text, convergence",
         "About 40 iterations, 10 revolutions, are sufficient for the wake to converge.",
         (
             below("change of inflow in revolution 10 over its mean", change[-1], SETTLED),
@@ -131,7 +131,7 @@ def durations(runs: Runs) -> Statement:
     """Lengths of the manoeuvres."""
     descent, roll = (float(runs[f"{m}/time-marching"].time[-1]) for m in MANEUVERS)
     return Statement(
-        "text",
+        "text, durations",
         "The arrested descent lasts about 2.7 s, 12 revolutions; the roll reversal 8.38 s, 36 revolutions; "
         "revolution 5 ends at 1.16 s, "
         "revolution 15 at 3.49 s.",
@@ -151,7 +151,7 @@ def rate_limit(runs: Runs) -> Statement:
         run = runs[f"{maneuver}/time-marching"]
         rates[stick] = float(np.abs(np.diff(run[stick].values)).max() / np.diff(run.time.values).mean())
     return Statement(
-        "text",
+        "text, rates",
         "10 in of travel moved at no more than 100 % per second, where the actuators are assumed to saturate.",
         tuple(below(f"fastest {stick}", rate, 10.0 * 1.001, "in/s") for stick, rate in rates.items()),
     )
@@ -162,7 +162,7 @@ def uncoupled_cost(runs: Runs) -> Statement:
     run = runs["arrested-descent/time-marching"]
     ratio = cost.per_revolution(run) / cost.per_sweep(run)
     return Statement(
-        "cost",
+        "cost, uncoupled",
         "Uncoupled and steady, relaxation is N_b = 4 times faster.",
         (within("segment evaluations: a revolution of marching over a sweep of relaxation", ratio, 3.2, 4.8),),
     )
@@ -176,7 +176,7 @@ def coupled_cost(runs: Runs) -> Statement:
         ratios[maneuver] = [cost.work_ratio(runs[cap_name(maneuver, cap)], marched) for cap in CAPS]
     largest = max(max(r) for r in ratios.values())
     return Statement(
-        "cost",
+        "cost, coupled",
         "In the coupled manoeuvre relaxation takes up to 3 times longer, its loop often not converging.",
         (
             *(
@@ -198,7 +198,7 @@ def overall_cost(runs: Runs) -> Statement:
     """Time of the whole."""
     shares = [cost.processor(runs[f"{m}/time-marching"]) / cost.processor(runs[f"{m}/relaxation"]) for m in MANEUVERS]
     return Statement(
-        "cost",
+        "cost, over all",
         "Over all, time marching takes about one third less time.",
         tuple(
             within(f"processor time of convergence phase and flight over that of relaxation, {m}", share, 0.55, 0.8)
