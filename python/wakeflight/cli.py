@@ -237,9 +237,12 @@ def report(
     print(f"wrote {folder / 'report.html'}")
 
 
+_STILL = {"speed": "0 kt", "shaft_angle": "0 deg", "climb": "0 m/s"}
+
+
 @app.command()
 def converge(
-    run: Annotated[str, typer.Argument(metavar="RUN", help="trim, modes, or a manoeuvre as for fly")],
+    run: Annotated[str, typer.Argument(metavar="RUN", help="trim, modes, tunnel, or a manoeuvre as for fly")],
     vary: Annotated[
         str, typer.Option("--vary", metavar="NAME", help="azimuth-step, wake-turns, modes, tolerance, ...")
     ],
@@ -255,6 +258,11 @@ def converge(
     sideslip: Sideslip = None,
     turn_rate: TurnRate = None,
     bank: Bank = None,
+    rotor: Annotated[str | None, typer.Option("--rotor", metavar="FILE", help="tunnel: a rotor file")] = None,
+    collective: Annotated[str | None, typer.Option("--collective", help="tunnel: as for tunnel")] = None,
+    shaft_angle: Annotated[str | None, typer.Option("--shaft-angle", help="tunnel: as for tunnel")] = None,
+    climb: Annotated[str | None, typer.Option("--climb", help="tunnel: as for tunnel")] = None,
+    thrust: Annotated[str | None, typer.Option("--thrust", help="tunnel: as for tunnel")] = None,
     revolutions: Revolutions = None,
     azimuth_step: AzimuthStep = None,
     wake_turns: WakeTurns = None,
@@ -266,28 +274,49 @@ def converge(
     """Repeat a run at several settings of one discretisation; print error estimate and cost of each."""
     given = _given(speed, flight_path, altitude, weight, sideslip, turn_rate, bank)
     wake = {"azimuth_step": azimuth_step, "turns": wake_turns, "scheme": wake_scheme}
+    stand = {"collective": collective, "shaft_angle": shaft_angle, "climb": climb, "thrust": thrust}
+    stand = {name: value for name, value in stand.items() if value is not None}
     _check_flight(revolutions, integrator)
-    request = _request(aircraft, loading, condition, given, inflow, wake, threads, None, out or Path("runs/converge"))
+    folder = out or Path("runs/converge")
     from .converge import converge as study_of
     from .plotting import convergence, style
     from .progress import Progress
 
+    base: dict[str, Any]
+    if run == "tunnel":
+        from .aircraft import load_rotor
+        from .tunnel import configured
+
+        _set_threads(threads)
+        known = {name: given.pop(name) for name in ("speed", "altitude") if name in given}
+        if given:
+            raise InputError.of(next(iter(given)), next(iter(given.values())), "not an option of a rotor on a stand")
+        stand |= known
+        options = {name: value for name, value in wake.items() if value is not None}
+        model = configured(rotor or aircraft, inflow, options, _STILL | stand)
+        flown: Any = load_rotor(rotor or aircraft)
+        base = {"inflow": model, "stand": stand}
+        _writable(folder)
+    else:
+        if stand or rotor:
+            raise InputError.of("run", run, f"{', '.join(stand) or 'rotor'} belongs to the run tunnel")
+        request = _request(aircraft, loading, condition, given, inflow, wake, threads, None, folder)
+        flown, base = request.aircraft, {"condition": request.condition, "inflow": request.inflow}
     with Progress() as progress:
         study = study_of(
-            request.aircraft,
+            flown,
             run,
             vary=vary,
             values=values,
-            condition=request.condition,
-            inflow=request.inflow,
             revolutions=revolutions,
             integrator=integrator,
             progress=progress,
+            **base,
         )
     print(study.table())
-    study.save(_folder(request.out))
-    style.save(convergence.figure(study.data), request.out / "converge.png")
-    print(f"wrote converge.nc, .csv, .md and .png in {request.out}")
+    study.save(_folder(folder))
+    style.save(convergence.figure(study.data), folder / "converge.png")
+    print(f"wrote converge.nc, .csv, .md and .png in {folder}")
     if study.failures:
         raise NumericalFailure("; ".join(study.failures))
 

@@ -24,7 +24,7 @@ LINEAR_TOLERANCE = 1e-4  # m/s2
 ANGULAR_TOLERANCE = 1e-4  # rad/s2
 HARMONIC_TOLERANCE = 1e-6  # rad, equivalent angle of a blade harmonic
 CONTROL_TOLERANCE = 1e-3  # rad, change of a pitch control between trims on a free wake
-MAX_OUTER = 15
+MAX_OUTER = 30  # the last passes halve the change of the controls
 
 
 @dataclass(frozen=True)

@@ -5,6 +5,9 @@ import numpy as np
 import pytest
 
 from wakeflight.converge.estimate import estimate, geometric
+from wakeflight.converge.parameters import Setting, parameter
+from wakeflight.converge.runs import Outcome, Quantity
+from wakeflight.converge.study import Study
 
 SIZES = np.array([4.0, 2.0, 1.0])
 TIMES = np.linspace(0.0, 1.0, 7)
@@ -67,3 +70,18 @@ def test_no_order_is_sought_where_no_power_is_expected_or_ratios_differ():
 def test_the_finest_three_in_geometric_ratio_are_found_among_others():
     assert geometric(np.array([15.0, 10.0, 7.5, 5.0, 2.5])) == (1, 3, 4)
     assert geometric(np.array([15.0, 10.0, 7.0])) is None
+
+
+def test_a_study_with_a_setting_that_did_not_settle_has_no_order():
+    outcomes = tuple(
+        Outcome(np.array([[1.0 + h**2]]), np.zeros(1), 1.0, 1.0, {}, notes)
+        for h, notes in zip(SIZES, ((), ("still moves",), ()), strict=True)
+    )
+    given = tuple(Setting(f"{h:g}", h, h) for h in SIZES)
+    study = Study("a run", parameter("azimuth-step"), given, outcomes, (Quantity("power", "hp"),))
+    assert study.estimates[0].order is None
+    assert "2: still moves" in study.table()
+    settled = Study(
+        "a run", parameter("azimuth-step"), given, (outcomes[0], outcomes[2], outcomes[2]), study.quantities
+    )
+    assert "still moves" not in settled.table()

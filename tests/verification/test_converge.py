@@ -62,6 +62,14 @@ def test_more_elements_only_lower_the_frequencies_of_the_blade(uh60a):
     assert torsion.error[0] < 0.006 * frequencies[-1, 4]
 
 
+def test_a_rotor_on_a_stand_is_swept_as_the_verb_runs_it(uh60a):
+    stand = {"collective": "16 deg", "speed": "80 kt"}
+    study = wf.converge(uh60a, "tunnel", vary="stations", values=[10, 20], inflow="dynamic", stand=stand)
+    alone = wf.tunnel(uh60a, inflow=wf.DynamicInflow(n_stations=20), **stand)
+    assert float(study.data["value"].sel(setting="20", quantity="ct")) == alone.ct
+    assert float(study.data["value"].sel(setting="10", quantity="ct")) != alone.ct
+
+
 def test_histories_are_compared_at_the_instants_all_settings_have(uh60a):
     study = wf.converge(
         uh60a, wf.arrested_descent(), vary="azimuth-step", values="15 deg, 10 deg", inflow="dynamic", revolutions=1

@@ -16,7 +16,7 @@ from ..units import STANDARD_GRAVITY, quantity, shown
 from .core_data import assembled, fixed_parts
 from .mass import blade_mass
 from .number import Number, Numbers, Provenance
-from .schema import AircraftFile, Loading, Rotor
+from .schema import AircraftFile, Discretisation, Loading, Rotor
 from .tables import TableFile
 
 if TYPE_CHECKING:
@@ -133,14 +133,7 @@ class Aircraft:
 
     def discretised(self, **given: Any) -> Aircraft:
         """This aircraft with another `[discretisation]`: keys of the file, checked as there."""
-        from .schema import Discretisation
-
-        try:
-            chosen = Discretisation(**{**dict(self._spec.discretisation), **given})
-        except ValidationError as reason:
-            error = reason.errors()[0]
-            key = str(error["loc"][0])
-            raise InputError.of(key, given.get(key), error["msg"][0].lower() + error["msg"][1:]) from None
+        chosen = checked_discretisation(dict(self._spec.discretisation), given)
         return Aircraft(self._spec.model_copy(update={"discretisation": chosen}), self._path, self._loading_name)
 
     @property
@@ -222,6 +215,16 @@ class Aircraft:
     def sources(self) -> list[SourceRow]:
         """Every number and table of the file with its published value, sources and confidence."""
         return list(_rows(self._spec, ""))
+
+
+def checked_discretisation(present: dict[str, Any], given: dict[str, Any]) -> Discretisation:
+    """The `[discretisation]` with what is given put in place of what is present, checked as in a file."""
+    try:
+        return Discretisation(**{**present, **given})
+    except ValidationError as reason:
+        error = reason.errors()[0]
+        key = str(error["loc"][0])
+        raise InputError.of(key, given.get(key), error["msg"][0].lower() + error["msg"][1:]) from None
 
 
 def _rows(group: BaseModel, prefix: str) -> Iterator[SourceRow]:

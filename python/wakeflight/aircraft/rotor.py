@@ -16,7 +16,7 @@ from . import tables
 from .core_data import blade_data, structure_data
 from .core_data import lag_damper_data as damper
 from .load import SHIPPED, find, load_aircraft, parsed, validated
-from .model import Aircraft, Settings
+from .model import Aircraft, Settings, checked_discretisation
 from .rotor_file import UNSTATED, RotorFile, RotorGroup, written_out
 
 FINEST_DEFAULT_STEPS = 36
@@ -90,6 +90,11 @@ class Rotor:
     def with_reference_pitch(self, pitch: float) -> Rotor:
         """The same rotor with the modes of its blades at root pitch `pitch` [rad]."""
         return replace(self, discretisation=self.discretisation._replace(reference_pitch=float(pitch)))
+
+    def discretised(self, **given: Any) -> Rotor:
+        """The same rotor with other modes, finite elements or quadrature points (`n_modes`, `n_elements`, `n_gauss`)."""
+        checked_discretisation({}, given)
+        return replace(self, discretisation=self.discretisation._replace(**given))
 
 
 def load_rotor(rotor: str | Path | Rotor | Aircraft = "uh60a") -> Rotor:

@@ -3,23 +3,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
-from ..aircraft import Aircraft
+from ..aircraft import Aircraft, Rotor, load_rotor
 from ..condition import FlightCondition, condition_for
 from ..errors import InputError, NumericalFailure
 from ..inflow import InflowModel, inflow_model
 from ..maneuvers import SHIPPED, Maneuver, load_maneuver
 from ..progress import Progress, Silent
+from ..tunnel import configured
 from .parameters import PARAMETERS, Case, Parameter, applied, check_run, parameter, settings
-from .runs import FlightRun, ModesRun, Outcome, Run, TrimRun, warm
+from .runs import FlightRun, ModesRun, Outcome, Run, TrimRun, TunnelRun, warm
 from .study import Study
 
 __all__ = ["PARAMETERS", "Study", "converge"]
 
 
 def converge(
-    aircraft: Aircraft,
+    aircraft: Aircraft | Rotor,
     run: str | Maneuver = "trim",
     *,
     vary: str,
@@ -28,22 +30,20 @@ def converge(
     inflow: str | InflowModel = "time-marching",
     revolutions: float | None = None,
     integrator: str = "ida",
+    stand: Mapping[str, Any] | None = None,
     progress: Progress | Silent | None = None,
 ) -> Study:
     """Repeat a run at several settings of one discretisation: error estimate and cost of each.
 
-    run: `trim`, `modes` (frequencies of the blade), a manoeuvre, its shipped name or file. vary: a name of `PARAMETERS`.
-    values: list, or text with commas, angles with units. The rest as for `trim` and `fly`; trims on a free wake are iterated
-    more tightly than by default.
-    A setting that fails is left out and named in `failures`; NumericalFailure where fewer than two are left, with the
-    Study so far as `partial`, if any.
+    run: `trim`, `modes` (frequencies of the blade), `tunnel` (the rotor on a stand), a manoeuvre, its shipped name or file.
+    vary: a name of `PARAMETERS`. values: list, or text with commas, angles with units. stand: arguments of `wf.tunnel`.
+    The rest as for `trim` and `fly`; trims on a free wake are iterated more tightly than by default. A setting that fails is
+    left out and named in `failures`; NumericalFailure where fewer than two are left.
     """
     progress = progress or Silent()
     chosen = parameter(vary)
     given = settings(chosen, values)
-    base = Case(aircraft, inflow_model(inflow))
-    complete = condition_for(aircraft, condition)
-    repeated = _run(chosen, run, base, complete, revolutions, integrator)
+    repeated, base = _run(chosen, run, aircraft, condition, inflow, revolutions, integrator, stand)
     check_run(chosen, run if isinstance(run, str) else "flight", base.inflow)
     cases = [applied(chosen, setting, base) for setting in given]
     for case in cases:
@@ -76,23 +76,37 @@ def converge(
 def _run(
     chosen: Parameter,
     run: str | Maneuver,
-    base: Case,
-    condition: FlightCondition,
+    aircraft: Aircraft | Rotor,
+    condition: FlightCondition | None,
+    inflow: str | InflowModel,
     revolutions: float | None,
     integrator: str,
-) -> Run:
-    """The run by its name."""
-    if isinstance(run, Maneuver):
-        return FlightRun(chosen, condition, run, revolutions, integrator)
-    if run in ("trim", "modes"):
-        if revolutions is not None:
-            raise InputError.of("revolutions", revolutions, f"{run} has none: choose a manoeuvre")
-        return TrimRun(chosen, condition) if run == "trim" else ModesRun(base.aircraft.discretisation.n_modes)
-    try:
-        maneuver = load_maneuver(run)
-    except InputError as reason:
-        if run.endswith(".toml"):
-            raise
-        allowed = f"allowed: trim, modes, {', '.join(SHIPPED)}, or the path of a manoeuvre file (.toml)"
-        raise InputError.of("run", run, allowed) from reason
-    return FlightRun(chosen, condition, maneuver, revolutions, integrator)
+    stand: Mapping[str, Any] | None,
+) -> tuple[Run, Case]:
+    """The run by its name, and what it starts from."""
+    if run in ("trim", "modes", "tunnel") and revolutions is not None:
+        raise InputError.of("revolutions", revolutions, f"{run} has none: choose a manoeuvre")
+    if run == "tunnel":
+        given = dict(stand or {})
+        where = {"speed": "0 kt", "shaft_angle": "0 deg", "climb": "0 m/s"} | given
+        model = inflow_model(inflow) if not isinstance(inflow, str) else configured(aircraft, inflow, {}, where)
+        return TunnelRun(chosen, given), Case(load_rotor(aircraft), model)
+    if not isinstance(aircraft, Aircraft):
+        raise InputError.of("aircraft", aircraft.name, "a rotor alone does not fly; allowed with it: tunnel")
+    if stand:
+        raise InputError.of("stand", ", ".join(stand), "belongs to the run tunnel")
+    base = Case(aircraft, inflow_model(inflow))
+    if run == "modes":
+        return ModesRun(aircraft.discretisation.n_modes), base
+    complete = condition_for(aircraft, condition)
+    if run == "trim":
+        return TrimRun(chosen, complete), base
+    if isinstance(run, str):
+        try:
+            run = load_maneuver(run)
+        except InputError as reason:
+            if run.endswith(".toml"):
+                raise
+            allowed = f"allowed: trim, modes, tunnel, {', '.join(SHIPPED)}, or the path of a manoeuvre file (.toml)"
+            raise InputError.of("run", run, allowed) from reason
+    return FlightRun(chosen, complete, run, revolutions, integrator), base

@@ -7,7 +7,7 @@ import math
 from dataclasses import dataclass, fields, replace
 from typing import Any, Literal
 
-from ..aircraft import Aircraft
+from ..aircraft import Aircraft, Rotor
 from ..errors import InputError
 from ..flight import RTOL
 from ..inflow import DynamicInflow, InflowModel, RelaxationWake, TimeMarchingWake
@@ -27,7 +27,7 @@ Kind = Literal["angle", "whole", "number"]
 class Case:
     """Everything that a run depends on and that can be refined."""
 
-    aircraft: Aircraft
+    aircraft: Aircraft | Rotor
     inflow: InflowModel
     n_harmonics: int = 8
     rtol: float = RTOL
@@ -157,7 +157,9 @@ def tightened(chosen: Parameter, inflow: InflowModel) -> InflowModel:
 
 
 def check_run(chosen: Parameter, run: str, inflow: InflowModel) -> None:
-    """Refuse a parameter that the run does not have; run: `trim`, `modes`, anything else is a flight."""
+    """Refuse a parameter that the run does not have; run: `trim`, `modes`, `tunnel`, anything else is a flight."""
+    if run == "tunnel" and (chosen.part == "flight" or chosen.name in ("convergence-revolutions", "control-tolerance")):
+        raise InputError.of("vary", chosen.name, "not a discretisation of a rotor on a stand")
     if run == "modes" and chosen.name != "elements":
         raise InputError.of("vary", chosen.name, "not a discretisation of the blade's modes; allowed: elements")
     if run == "trim" and (chosen.part == "flight" or chosen.name == "convergence-revolutions"):

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple, Protocol
 
@@ -11,13 +12,15 @@ import numpy as np
 
 from ..condition import FlightCondition
 from ..flight import Flight, flown_steps, fly
-from ..inflow import DynamicInflow, trim_model
+from ..inflow import DynamicInflow, RelaxationWake, trim_model
 from ..maneuvers import Maneuver
 from ..model import Model
 from ..modes import blade_modes
 from ..progress import Progress, Silent
 from ..trim import Trim, trim
 from ..trim_results import HORSEPOWER, first_harmonics
+from ..tunnel import check as check_stand
+from ..tunnel import tunnel
 from .parameters import Case, Parameter, tightened
 
 
@@ -77,6 +80,7 @@ class Outcome:
     seconds: float
     cpu_seconds: float
     counters: dict[str, int] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
 
 
 class Run(Protocol):
@@ -119,7 +123,7 @@ class Trimming:
             control_tolerance=case.control_tolerance,
         )
         values = np.array([[q.factor * value for q, value in zip(TRIM_QUANTITIES, trim_values(start), strict=True)]])
-        cost = Outcome(values, np.zeros(1), *clock.read(), dict(start.counters))
+        cost = Outcome(values, np.zeros(1), *clock.read(), dict(start.counters), unsolved(start))
         self._known.append((key, start, cost))
         return start, cost
 
@@ -144,6 +148,53 @@ class TrimRun:
     def outcome(self, case: Case, progress: Progress | Silent) -> Outcome:
         """Values of the trim."""
         return self.trimming.start(case, case.inflow, progress)[1]
+
+
+TUNNEL_QUANTITIES = (
+    Quantity("ct", "1"),
+    Quantity("cq", "1"),
+    Quantity("power", "hp", 1.0 / HORSEPOWER),
+    Quantity("lambda_0", "1"),
+    Quantity("lambda_1c", "1"),
+    Quantity("lambda_1s", "1"),
+    Quantity("theta_0", "deg", DEGREES),
+    Quantity("theta_1c", "deg", DEGREES),
+    Quantity("theta_1s", "deg", DEGREES),
+    Quantity("beta_0", "deg", DEGREES),
+    Quantity("beta_1c", "deg", DEGREES),
+    Quantity("beta_1s", "deg", DEGREES),
+)
+
+
+class TunnelRun:
+    """An isolated rotor on a stand: thrust, torque, inflow, controls and flapping."""
+
+    quantities = TUNNEL_QUANTITIES
+
+    def __init__(self, varied: Parameter, stand: Mapping[str, Any]):
+        self.varied, self.stand = varied, dict(stand)
+
+    @property
+    def title(self) -> str:
+        """What is run."""
+        given = ", ".join(f"{name.replace('_', ' ')} {value}" for name, value in self.stand.items())
+        return f"tunnel, {given}" if given else "tunnel"
+
+    def check(self, case: Case) -> None:
+        """What the stand refuses."""
+        check_stand(case.aircraft, case.inflow, n_harmonics=case.n_harmonics, **self.stand)
+
+    def outcome(self, case: Case, progress: Progress | Silent) -> Outcome:
+        """Means of the solved rotor; what it says of itself where its wake does not rest."""
+        clock = _Clock()
+        inflow = tightened(self.varied, case.inflow)
+        found = tunnel(case.aircraft, inflow=inflow, n_harmonics=case.n_harmonics, progress=progress, **self.stand)
+        seconds, cpu = clock.read()
+        harmonics = dict(zip(("lambda_0", "lambda_1c", "lambda_1s"), found.inflow_harmonics(), strict=True))
+        values = [q.factor * harmonics.get(q.name, getattr(found, q.name, 0.0)) for q in self.quantities]
+        counted = {"segment_evaluations": int(found.data.attrs.get("segment_evaluations", 0))}
+        notes = () if found.settled else tuple(found.notes)
+        return Outcome(np.array([values]), np.zeros(1), seconds, cpu, counted, notes)
 
 
 class ModesRun:
@@ -194,8 +245,9 @@ class FlightRun:
     def check(self, case: Case) -> None:
         """Compile the aircraft; the manoeuvre must fit its sticks."""
         model = build(case, self.trimming.condition)
-        self.maneuver.check_span(case.aircraft.stick_travel_in)
-        flown_steps(model, self.maneuver, self.revolutions)
+        flown = self.maneuver.for_aircraft(case.aircraft.stick_travel_in, model.omega)
+        flown.check_span(case.aircraft.stick_travel_in)
+        flown_steps(model, flown, self.revolutions)
 
     def outcome(self, case: Case, progress: Progress | Silent) -> Outcome:
         """Histories of the flight."""
@@ -215,7 +267,13 @@ class FlightRun:
         samples = np.column_stack([q.factor * data[q.name].values for q in self.quantities])
         counted = {
             name: int(data.attrs[name])
-            for name in ("residual_evaluations", "jacobians", "segment_evaluations", "relaxation_iterations")
+            for name in (
+                "residual_evaluations",
+                "jacobians",
+                "segment_evaluations",
+                "relaxation_iterations",
+                "circulation_not_converged",
+            )
             if name in data.attrs
         }
         trimmed = {f"trim_{name}": n for name, n in cost.counters.items()}
@@ -239,6 +297,19 @@ def build(case: Case, condition: FlightCondition) -> Model:
         return Model.build(case.aircraft, condition, case.inflow)
     except ValueError as reason:
         raise InputError(f"{case.aircraft.path}: {reason}") from None
+
+
+def unsolved(start: Trim) -> tuple[str, ...]:
+    """What must be said of a trim whose circulation and near wake do not agree at some azimuths (beyond stall, for instance)."""
+    if not isinstance(start.inflow, RelaxationWake) or start.wake is None:
+        return ()
+    model, wake = start.model, start.wake
+    q, q_dot = model.core.trim_motion(start.problem, start.x, wake.n)
+    held = (start.state(), start.stick_si, np.zeros(4), wake.psi, q, q_dot, wake.lambda_far, wake.circulation)
+    _, _, residual, failed = model.core.solve_circulation(model.wake_options, *held)
+    if not failed:
+        return ()
+    return (f"circulation and near wake do not agree at {failed} of {wake.n} azimuths, by {residual:.2g} m2/s",)
 
 
 def trim_values(start: Trim) -> list[float]:

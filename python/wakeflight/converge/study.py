@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import csv
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -57,8 +57,11 @@ class Study:
     def estimates(self) -> list[Estimate]:
         """Error estimate of every quantity."""
         sizes = np.array([setting.size for setting in self.settings])
-        order = self.parameter.formal_order
-        return [estimate(sizes, self.samples[:, :, i], order) for i in range(len(self.quantities))]
+        # what did not settle has no limit to tend to
+        settled = not any(outcome.notes for outcome in self.outcomes)
+        order = self.parameter.formal_order if settled else None
+        found = [estimate(sizes, self.samples[:, :, i], order) for i in range(len(self.quantities))]
+        return found if settled else [replace(each, note="a setting did not settle") for each in found]
 
     @cached_property
     def scales(self) -> np.ndarray:

@@ -56,6 +56,7 @@ def notes(study: Study) -> list[str]:
         )
     if study.is_history:
         found.append(f"histories compared at {study.times.size} common instants up to {study.times[-1]:.3f} s")
+    found += [f"{label}: {text}" for label, o in zip(study.labels, study.outcomes, strict=True) for text in o.notes]
     return [*found, *(f"failed: {text}" for text in study.failures)]
 
 

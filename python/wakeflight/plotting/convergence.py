@@ -19,12 +19,13 @@ CAPTION = (
     "Estimated error of every setting against the processor time of its run. Solid with filled marks: against the limit, "
     "extrapolated with the observed order. Dashed with hollow marks: against the finest setting, whose own error is not known."
 )
-GROUPS_OF_A_TRIM = (
-    ("power [hp]", ("power",)),
-    ("thrust coefficient, inflow [–]", ("ct", "lambda_0", "lambda_1c", "lambda_1s")),
-    ("sticks [in]", ("lateral", "longitudinal", "collective", "pedal")),
-    ("angles [deg]", ("pitch", "roll", "beta_0", "beta_1c", "beta_1s")),
-)
+GROUPS = {
+    "hp": "power [hp]",
+    "1": "coefficients, inflow [–]",
+    "in": "sticks [in]",
+    "deg": "angles [deg]",
+    "1/rev": "frequency [1/rev]",
+}
 HISTORIES = ("w", "p", "q", "roll", "pitch", "force_z", "beta_1c")
 
 
@@ -41,20 +42,20 @@ def _title(study: xr.Dataset) -> str:
 
 
 def _values(study: xr.Dataset) -> Figure:
-    if "power" not in study["quantity"]:
-        drawn = style.blank(3.2)
-        axes = drawn.subplots()
-        names = [str(name) for name in study["quantity"].values]
+    units = [str(unit) for unit in study["unit"].values]
+    present = [unit for unit in GROUPS if unit in units]
+    columns = min(2, len(present))
+    rows = -(-len(present) // columns)
+    drawn = style.blank(2.6 * rows)
+    grid = drawn.subplots(rows, columns, sharex=True, squeeze=False)
+    for axes, unit in zip(grid.ravel(), present, strict=False):
+        names = [str(name) for name, its in zip(study["quantity"].values, units, strict=True) if its == unit]
         _curves(axes, study, "error", names, np.ones(len(names)))
-        axes.set_ylabel(f"error [{study['unit'].values[0]}]")
-        _finish([axes], [axes], study)
-        return drawn
-    drawn = style.blank(5.2)
-    grid = drawn.subplots(2, 2, sharex=True)
-    for axes, (label, names) in zip(grid.ravel(), GROUPS_OF_A_TRIM, strict=True):
-        _curves(axes, study, "error", names, np.ones(len(names)))
-        axes.set_ylabel(f"error, {label}")
-    _finish(grid.ravel(), grid[-1], study)
+        axes.set_ylabel(f"error, {GROUPS[unit]}")
+    for axes in grid.ravel()[len(present) :]:
+        axes.set_visible(False)
+    panels = grid.ravel()[: len(present)]
+    _finish(panels, panels[-columns:], study)
     return drawn
 
 

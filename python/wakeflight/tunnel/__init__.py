@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import time
 from dataclasses import fields, replace
+from inspect import signature
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -28,7 +29,7 @@ from .solve import first_guess, solution
 if TYPE_CHECKING:
     from ..aircraft import Aircraft, Rotor
 
-__all__ = ["Tunnel", "configured", "tunnel"]
+__all__ = ["Tunnel", "check", "configured", "tunnel"]
 
 
 def tunnel(
@@ -113,6 +114,16 @@ def tunnel(
     progress.phase("rotor on the stand", None)
     found = solution(simple, wake, options, progress)
     return Tunnel(found, time.perf_counter() - started)
+
+
+def check(aircraft: str | Path | Aircraft | Rotor, inflow: str | InflowModel, **given: Any) -> None:
+    """Refuse what `tunnel` would refuse of the same arguments; nothing is started."""
+    apart = ("aircraft", "inflow", "progress")
+    defaults = {name: each.default for name, each in signature(tunnel).parameters.items() if name not in apart}
+    for name in given:
+        if name not in defaults:
+            raise InputError.of(name, given[name], f"not an argument of tunnel; allowed: {', '.join(defaults)}")
+    _prepared(aircraft, inflow, defaults | given)
 
 
 def configured(
