@@ -516,9 +516,7 @@ def _given(
 def _check_flight(revolutions: float | None, integrator: str) -> None:
     if revolutions is not None and not 0.0 < revolutions <= 10000.0:
         raise InputError.of("--revolutions", revolutions, "must lie above 0 and at most 10000")
-    if integrator == "fixed":
-        raise InputError("not in this version yet: --integrator fixed; allowed: ida")
-    if integrator != "ida":
+    if integrator not in ("ida", "fixed"):
         raise InputError.of("--integrator", integrator, "allowed: ida, fixed")
 
 

@@ -15,18 +15,35 @@ if TYPE_CHECKING:
 
 
 class MarchingExchange:
-    """Time-marching free wake, exchanged every coupling step [ribera2004, bhagwat2001]."""
+    """Time-marching free wake, exchanged every coupling step [ribera2004, bhagwat2001].
+
+    The exchange itself is one call of the core: circulation from states and held far inflow, wake one step, far inflow
+    anew, circulation again; `recorrect` and `extrapolate` of the model go beyond it.
+    """
 
     def __init__(self, model: CompiledRotor, trimmed: WakeInTrim):
         self.model = model
         self.n = model.steps_per_revolution
-        self.wake = _core.TimeMarchingWake.from_relaxation(trimmed.relaxation, 0, model.wake_options)
         self.step_index = 0
         rows = self._rows(0)
         self.lambda_far = trimmed.lambda_far[rows]
         self.circulation = trimmed.circulation[rows]
         self.inflow = trimmed.inflow_map[rows]
-        self.monitors = {"max_displacement": 0.0, "odd_even": 0.0}
+        self.core = _core.MarchingExchange(
+            trimmed.relaxation,
+            model.wake_options,
+            self.lambda_far,
+            self.circulation,
+            self.inflow,
+            getattr(model.inflow, "recorrect", 0),
+            getattr(model.inflow, "extrapolate", False),
+        )
+        # inflow at the latest passage of every azimuth, and the map held where it is renewed less often than every step
+        self.passages = trimmed.inflow_map.copy()
+        interval = getattr(model.inflow, "update_interval", None)
+        self.update_steps = None if interval is None else round(interval / (2 * np.pi) * self.n)
+        self._held_map: np.ndarray | None = None
+        self.monitors = {"max_displacement": 0.0, "odd_even": 0.0, "vortex_blade_distance": np.nan}
         self.circulation_not_converged = 0
         self._frozen: tuple | None = None
 
@@ -34,45 +51,47 @@ class MarchingExchange:
         """Azimuth index of every blade after `step` steps."""
         return [(step + b * self.n // self.model.n_blades) % self.n for b in range(self.model.n_blades)]
 
-    @property
-    def psi(self) -> np.ndarray:
-        """Azimuth of every blade [rad]."""
-        return 2 * np.pi * np.asarray(self._rows(self.step_index)) / self.n
+    def held(self, step: int) -> tuple[np.ndarray, float]:
+        """Total inflow (n_blades, n_stations) over the step that begins, and its disk mean.
+
+        With `update_interval` a map by azimuth is held from one renewal to the next, as with a relaxation wake.
+        """
+        if self.update_steps is None:
+            return self.inflow, self.model.disk_mean(self.inflow)
+        if self._held_map is None or step % self.update_steps == 0:
+            self._held_map = self.passages.copy()
+        rows = 0.5 * (self._held_map[self._rows(step)] + self._held_map[self._rows(step + 1)])
+        return rows, self.model.disk_mean(self._held_map)
 
     def advance(
-        self, y: np.ndarray, stick: np.ndarray, stick_rate: np.ndarray, q: np.ndarray, q_dot: np.ndarray
+        self,
+        y: np.ndarray,
+        stick: np.ndarray,
+        stick_rate: np.ndarray,
+        motion: tuple[np.ndarray, np.ndarray] | None = None,
     ) -> np.ndarray:
-        """States have reached the next step: circulation from the held far inflow, wake one step, inflow anew.
+        """States have reached the next step; the wake follows. Returns the total inflow (n_blades, n_stations).
 
-        q, q_dot (n_blades, n_modes) at the new azimuths. Returns the total inflow (n_blades, n_stations).
+        motion: modal coordinates and rates (n_blades, n_modes) that stand for those of `y`.
         """
         self.step_index += 1
-        core = self.model.core
-        self._solve(y, stick, stick_rate, q, q_dot)
-        hub_velocity, hub_rates = core.hub(y)
-        flap, lead = core.equivalent_angles(q)
-        blades = np.column_stack([self.psi, flap, lead])
-        displacement, odd_even, _ = self.wake.step(hub_velocity, hub_rates, blades, self.circulation)
-        self.monitors = {"max_displacement": displacement, "odd_even": odd_even}
-        self.lambda_far = self.wake.inflow_far()
-        self._solve(y, stick, stick_rate, q, q_dot)
-        return self.inflow
-
-    def _solve(
-        self, y: np.ndarray, stick: np.ndarray, stick_rate: np.ndarray, q: np.ndarray, q_dot: np.ndarray
-    ) -> None:
-        self.circulation, self.inflow, _, failed = self.model.core.solve_circulation(
-            self.model.wake_options,
-            y,
-            stick,
-            stick_rate,
-            self.psi,
-            q,
-            q_dot,
-            self.lambda_far,
-            self.circulation,
+        rows = self._rows(self.step_index)
+        displacement, odd_even, distance, failed = self.core.advance(
+            self.model.core, y, stick, stick_rate, rows[0], motion
         )
+        self.monitors = {
+            "max_displacement": displacement,
+            "odd_even": odd_even,
+            "vortex_blade_distance": distance,
+        }
         self.circulation_not_converged += failed
+        self.lambda_far, self.circulation, self.inflow = (
+            self.core.lambda_far(),
+            self.core.circulation(),
+            self.core.inflow(),
+        )
+        self.passages[rows] = self.inflow
+        return self.inflow
 
     def frozen_step(self, problem: _core.TrimProblem, x: np.ndarray) -> tuple[list[int], np.ndarray, np.ndarray]:
         """One step with states and controls of the trim, circulation following the inflow."""
@@ -83,8 +102,8 @@ class MarchingExchange:
         _, q, q_dot, y = self._frozen
         rows = self._rows(self.step_index + 1)
         controls = x[: self.model.n_controls]
-        self.advance(y, controls, np.zeros(len(controls)), q[rows], q_dot[rows])
-        return rows, self.inflow.copy(), self.circulation.copy()
+        self.advance(y, controls, np.zeros(len(controls)), (q[rows], q_dot[rows]))
+        return rows, self.inflow, self.circulation
 
     def periodic_map(self, records: list[tuple[list[int], np.ndarray, np.ndarray]]) -> tuple[np.ndarray, np.ndarray]:
         """Inflow and circulation by azimuth (n, n_stations): mean of all blades' passages of a revolution."""
@@ -97,24 +116,24 @@ class MarchingExchange:
 
     def position(self) -> np.ndarray:
         """Tip vortices (n_blades, n_ages, 3) [m], hub axes."""
-        return self.wake.position()
+        return self.core.position()
 
     def marker_circulation(self, step: int) -> np.ndarray:
         """Circulation of the nodes of the tip vortices (n_blades, n_ages) [m2/s]."""
-        return self.wake.marker_circulation()
+        return self.core.marker_circulation()
 
     def core_radius(self, step: int) -> np.ndarray:
         """Core radii of the segments of the tip vortices (n_blades, n_ages - 1) [m]."""
-        return self.wake.core_radius()
+        return self.core.core_radius()
 
     @property
     def segment_evaluations(self) -> int:
         """Counted evaluations of the segment law."""
-        return int(self.wake.segment_evaluations)
+        return int(self.core.segment_evaluations)
 
 
 class RelaxationExchange:
-    """Relaxation free wake in the response: inflow of the state taken as steady, renewed once per revolution."""
+    """Relaxation free wake in the response: inflow of the state taken as steady, renewed at every `update_interval`."""
 
     def __init__(self, model: CompiledRotor, trimmed: WakeInTrim):
         self.model = model
@@ -122,6 +141,7 @@ class RelaxationExchange:
         self.trimmed = trimmed
         self.inflow_map = trimmed.inflow_map
         self.circulation_map = trimmed.circulation
+        self.update_steps = round(model.inflow.update_interval / (2 * np.pi) * self.n)
         self.unconverged = 0
         self.updates = 0
         self._motion = [None] * self.n

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import copy
 import time
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
@@ -19,8 +19,8 @@ import numpy as np
 from . import _core
 from .errors import InputError, NumericalFailure
 from .exchange import MarchingExchange, RelaxationExchange
-from .inflow import DynamicInflow, InflowModel, RelaxationWake, TimeMarchingWake, inflow_model, trim_model
-from .integrators import IdaIntegrator, consistent_rate
+from .inflow import DynamicInflow, InflowModel, RelaxationWake, TimeMarchingWake, inflow_model, like, trim_model
+from .integrators import INTEGRATORS
 from .maneuvers import Maneuver
 from .model import Model
 from .progress import Progress, Silent
@@ -121,16 +121,15 @@ class MarchingSource:
 
     def held(self, step: int) -> tuple[np.ndarray, float]:
         """Total inflow at the stations, and its disk mean."""
-        return self.wake.inflow, self.wake.model.disk_mean(self.wake.inflow)
+        return self.wake.held(step)
 
     def exchange(self, step: int, y: np.ndarray, stick: np.ndarray, stick_rate: np.ndarray) -> None:
         """Advance the wake by the step just flown."""
-        q, q_dot = self.wake.model.modal(y)
-        self.wake.advance(y, stick, stick_rate, q, q_dot)
+        self.wake.advance(y, stick, stick_rate)
 
 
 class RelaxationSource:
-    """Relaxation wake: inflow by azimuth, renewed every revolution."""
+    """Relaxation wake: inflow by azimuth, renewed every revolution (or as often as asked)."""
 
     def __init__(self, exchange: RelaxationExchange):
         self.wake = exchange
@@ -140,9 +139,9 @@ class RelaxationSource:
         return self.wake.inflow(step), self.wake.model.disk_mean(self.wake.inflow_map)
 
     def exchange(self, step: int, y: np.ndarray, stick: np.ndarray, stick_rate: np.ndarray) -> None:
-        """Remember the blades' motion; at the end of a revolution renew the map."""
+        """Remember the blades' motion; where it is due renew the map."""
         self.wake.remember(step, *self.wake.model.modal(y))
-        if step % self.wake.n == 0:
+        if step % self.wake.update_steps == 0:
             self.wake.renew(y, stick)
 
 
@@ -170,6 +169,7 @@ def fly(
 ) -> Flight:
     """Fly `maneuver` from `start`.
 
+    integrator: `ida`, variable in step and order, or `fixed`, one implicit step of order five per coupling step.
     rtol: relative tolerance of the solver, its absolute ones go with it.
     stabilator: `held` at its trim incidence, or `scheduled`, following its schedule within the rate of its servo.
 
@@ -181,8 +181,8 @@ def fly(
     progress = progress or Silent()
     begun = time.perf_counter()
     model = flight_model(start, inflow)
-    if integrator != "ida":
-        raise InputError.of("integrator", integrator, "allowed: ida (fixed is not in this version yet)")
+    if integrator not in INTEGRATORS:
+        raise InputError.of("integrator", integrator, f"allowed: {', '.join(INTEGRATORS)}")
     if stabilator not in ("held", "scheduled"):
         raise InputError.of("stabilator", stabilator, "allowed: held, scheduled")
     travel = start.aircraft.stick_travel_in
@@ -196,7 +196,7 @@ def fly(
         progress(f"warning: {text}")
 
     source, phase = inflow_source(model, start, progress)
-    solver = IdaIntegrator(model, rtol, atol_scale=rtol / RTOL)
+    solver = INTEGRATORS[integrator](model, rtol, atol_scale=rtol / RTOL)
     recorder = Recorder(model, start, maneuver, source, n_steps)
     seconds = {"wake": 0.0, "dynamics": 0.0}
     delta_t = 2 * np.pi / model.omega / model.steps_per_revolution
@@ -210,7 +210,9 @@ def fly(
             if stabilator == "scheduled" and step > 0:
                 incidence = scheduled_incidence(model, incidence, y, sticks.at(t), delta_t)
             inputs = coupling_inputs(sticks, t, held, mean, incidence)
-            y_dot = consistent_rate(model, t, y, inputs)
+            clock = time.perf_counter()
+            y_dot = solver.consistent(t, y, inputs)
+            seconds["dynamics"] += time.perf_counter() - clock
             recorder.record(step, t, y, y_dot, inputs, sticks.at(t), mean, incidence)
 
             clock = time.perf_counter()
@@ -229,7 +231,7 @@ def fly(
         t = n_steps * delta_t
         held, mean = source.held(n_steps)
         inputs = coupling_inputs(sticks, t, held, mean, incidence)
-        recorder.record(n_steps, t, y, consistent_rate(model, t, y, inputs), inputs, sticks.at(t), mean, incidence)
+        recorder.record(n_steps, t, y, solver.consistent(t, y, inputs), inputs, sticks.at(t), mean, incidence)
     except (NumericalFailure, ArithmeticError, np.linalg.LinAlgError) as reason:
         revolution = (recorder.n_recorded - 1) / model.steps_per_revolution
         failure = f"flight of {maneuver.name} stopped in revolution {revolution:.2f}: {reason}"
@@ -261,8 +263,7 @@ def flight_model(start: Trim, inflow: str | InflowModel | None) -> Model:
     if isinstance(chosen, DynamicInflow):
         return start.model
     if isinstance(inflow, str) and not isinstance(trimmed, type(chosen)):
-        common = {f.name: getattr(trimmed, f.name) for f in fields(chosen) if hasattr(trimmed, f.name)}
-        chosen = type(chosen)(**common)
+        chosen = like(type(chosen), trimmed)
     elif isinstance(inflow, str):
         chosen = trimmed
     before, now = trim_model(trimmed).core_options(start.aircraft), chosen.core_options(start.aircraft)

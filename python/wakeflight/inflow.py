@@ -48,6 +48,7 @@ _RANGES: dict[str, tuple[float, float]] = {
     "max_loops": (1, 1000),
     "max_loops_response": (1, 1000),
     "convergence_revolutions": (0, 200),
+    "recorrect": (0, 3),
 }
 
 _WHOLE = {
@@ -59,6 +60,7 @@ _WHOLE = {
     "max_loops",
     "max_loops_response",
     "convergence_revolutions",
+    "recorrect",
 }
 
 
@@ -135,12 +137,24 @@ class _Wake:
         check_azimuth_step(step, int(aircraft.rotor.n_blades))
         return step
 
+    def update_steps(self, aircraft: Aircraft) -> int:
+        """Coupling steps between renewals of the inflow held for the flight dynamics."""
+        interval = getattr(self, "update_interval", None)
+        if interval is None:
+            return 1
+        steps = interval / self.step(aircraft)
+        if abs(steps - round(steps)) > 1e-6:
+            allowed = f"must be a whole number of azimuth steps of {math.degrees(self.step(aircraft)):.6g} deg"
+            raise InputError.of("update_interval", f"{math.degrees(interval):.6g} deg", allowed)
+        return round(steps)
+
     def core_options(self, aircraft: Aircraft) -> dict[str, Any]:
         """Options as the physics core reads them: those of this model, and this aircraft's rotor in SI.
 
         core_radius and release_radius stay over R, bound_core and station_core_floor over the chord.
         """
         step = self.step(aircraft)
+        self.update_steps(aircraft)
         steps = round(2.0 * math.pi / step)
         for field, length, floor in (
             ("turns", self.turns * steps, steps),
@@ -192,7 +206,7 @@ class _Wake:
 
 @dataclass(frozen=True)
 class RelaxationWake(_Wake):
-    """Free wake made periodic by relaxation [bagai1995]; in flight renewed once per revolution."""
+    """Free wake made periodic by relaxation [bagai1995]; in flight renewed once per revolution, or as asked."""
 
     relaxation: float = 0.5
     """Share of a new geometry taken in each sweep: 0.3 in hover."""
@@ -206,6 +220,8 @@ class RelaxationWake(_Wake):
     """Iterations of inflow and circulation at most, in trim."""
     max_loops_response: int = 10
     """Iterations of inflow and circulation at most, in flight."""
+    update_interval: Any = "360 deg"
+    """Azimuth between renewals of wake and inflow in flight: a revolution [ribera2004], a quarter of one with "90 deg"."""
 
     name: ClassVar[str] = "relaxation"
 
@@ -227,6 +243,12 @@ class TimeMarchingWake(_Wake):
     """Weight of a second difference in time that damps the odd-even mode of PC2B (0.05)."""
     convergence_revolutions: int = 10
     """Revolutions at frozen states before the flight."""
+    recorrect: int = 0
+    """Passes after each step in which circulation and far inflow are found again with the wake held (0 to 3)."""
+    extrapolate: bool = False
+    """Whether the far inflow is carried on linearly in azimuth, half a step for the flight, a whole one for the wake."""
+    update_interval: Any = None
+    """Azimuth over which the flight dynamics keep a map of the inflow while the wake goes on; None is every step."""
 
     name: ClassVar[str] = "time-marching"
 
@@ -295,20 +317,28 @@ def trim_model(model: InflowModel) -> InflowModel:
     """Model to trim with before a flight with `model`: relaxation for a time-marching wake."""
     if not isinstance(model, TimeMarchingWake):
         return model
-    return RelaxationWake(**{field.name: getattr(model, field.name) for field in fields(_Wake)})
+    return like(RelaxationWake, model)
+
+
+def like(kind: type[InflowModel], model: InflowModel) -> InflowModel:
+    """A free wake of another kind with the options that both kinds share."""
+    return kind(**{field.name: getattr(model, field.name) for field in fields(_Wake)})
 
 
 def _check_options(model: InflowModel) -> None:
     """Type and range of every option of `model`; angles given as text become radians."""
     for field in fields(model):
         name, value = field.name, getattr(model, field.name)
-        if name in ("azimuth_step", "near_wake_angle"):
+        if name in ("azimuth_step", "near_wake_angle", "update_interval"):
             if value is None:
                 continue
             # a number is what an instance copied by dataclasses.replace holds: radians already
             radians = value if isinstance(value, _Radians) else _Radians(quantity(value, "rad", name))
             if name == "azimuth_step":
                 check_azimuth_step(radians)
+            elif name == "update_interval":
+                if not 0.0 < radians <= 20.0 * math.pi + 1e-9:
+                    raise InputError.of(name, value, "must lie above 0 deg and at most 3600 deg")
             elif not 0.0 <= radians <= 0.5 * math.pi:
                 raise InputError.of(name, value, "must lie between 0 deg and 90 deg")
             object.__setattr__(model, name, radians)

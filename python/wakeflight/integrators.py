@@ -14,6 +14,9 @@ from .model import Model
 class Integrator(Protocol):
     """What the flight asks of a solver."""
 
+    def consistent(self, t: float, y: np.ndarray, inputs: _core.Inputs) -> np.ndarray:
+        """y_dot that satisfies F = 0 at the present state (t, y) with the inputs that begin there."""
+
     def start(self, t: float, y: np.ndarray, y_dot: np.ndarray) -> None:
         """Begin at a consistent state."""
 
@@ -35,11 +38,7 @@ class Integrator(Protocol):
 
 def consistent_rate(model: Model, t: float, y: np.ndarray, inputs: _core.Inputs) -> np.ndarray:
     """y_dot that satisfies F = 0 at (t, y): F is linear in y_dot, so one solve with its matrix gives it."""
-    n = y.size
-    zero, f, mass = np.zeros(n), np.empty(n), np.empty((n, n))
-    model.core.residual(t, y, zero, inputs, f)
-    model.core.jacobian(t, y, zero, inputs, 0.0, 1.0, mass)
-    return np.linalg.solve(mass, -f)
+    return model.core.consistent_rate(t, y, inputs)
 
 
 class IdaIntegrator:
@@ -51,6 +50,10 @@ class IdaIntegrator:
         self.atol = atol_scale * absolute_tolerances(model)
         self._inputs: _core.Inputs | None = None
         self._statistics = {"residual_evaluations": 0, "jacobians": 0}
+
+    def consistent(self, t: float, y: np.ndarray, inputs: _core.Inputs) -> np.ndarray:
+        """y_dot that satisfies F = 0 at (t, y)."""
+        return consistent_rate(self.model, t, y, inputs)
 
     def start(self, t: float, y: np.ndarray, y_dot: np.ndarray) -> None:
         """Begin at a consistent state."""
@@ -106,6 +109,72 @@ class IdaIntegrator:
     def statistics(self) -> dict[str, int]:
         """Counted residual evaluations and Jacobians."""
         return dict(self._statistics)
+
+
+class FixedIntegrator:
+    """Radau IIA of order five [hairer1996], one step to wherever it is asked to go.
+
+    L-stable, so that no mode of a blade limits the step. Exact derivatives once per step, blades eliminated before the
+    body; the stages are solved until what Newton's iteration still lacks is a tenth of IDA's tolerances. A corner of the
+    stick history ends a step.
+    """
+
+    NEWTON_SHARE = 0.1
+
+    def __init__(self, model: Model, rtol: float = 1e-5, atol_scale: float = 1.0, parts: int = 1):
+        self.model, self.rtol, self.parts = model, rtol, parts
+        self.atol = atol_scale * absolute_tolerances(model)
+        self._solver: _core.FixedStep | None = None
+        self._y: np.ndarray | None = None
+
+    def start(self, t: float, y: np.ndarray, y_dot: np.ndarray) -> None:
+        """Begin at a state; its rate is found by the solver."""
+        if self._solver is None:
+            self._begin(t, y)
+
+    def _begin(self, t: float, y: np.ndarray) -> None:
+        self._solver = _core.FixedStep(self.model.core, t, y, self.rtol, self.atol, self.NEWTON_SHARE)
+        self._y = y
+
+    def consistent(self, t: float, y: np.ndarray, inputs: _core.Inputs) -> np.ndarray:
+        """y_dot that satisfies F = 0 at the present state; the derivatives found for it serve the step that follows."""
+        if self._solver is None:
+            self._begin(t, y)
+        self._solver.prepare(self.model.core, inputs)
+        return self._solver.rate()
+
+    def advance_to(self, t: float, inputs: _core.Inputs) -> None:
+        """Integrate to `t` [s] with `inputs` held."""
+        self._solver.advance(self.model.core, t, inputs, self.parts)
+        self._y = self._solver.state()
+
+    @property
+    def state(self) -> np.ndarray:
+        """y at the present time."""
+        return self._y
+
+    @property
+    def rate(self) -> np.ndarray:
+        """y_dot at the present time."""
+        return self._solver.rate()
+
+    @property
+    def statistics(self) -> dict[str, int]:
+        """Counted work."""
+        names = (
+            "residual_evaluations",
+            "jacobians",
+            "factorisations",
+            "newton_iterations",
+            "solver_steps",
+            "halved_steps",
+        )
+        counted = (0,) * len(names) if self._solver is None else self._solver.counters()
+        return dict(zip(names, counted, strict=True))
+
+
+INTEGRATORS = {"ida": IdaIntegrator, "fixed": FixedIntegrator}
+"""Solvers by the name the command line uses."""
 
 
 def absolute_tolerances(model: Model) -> np.ndarray:

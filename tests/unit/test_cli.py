@@ -54,7 +54,6 @@ def _nothing_starts(monkeypatch):
         ([*FLY, "--wake-turns", "0"], "turns"),
         ([*FLY, "--wake-scheme", "euler"], "scheme"),
         ([*FLY, "--wake-scheme", "pcc", "--inflow", "dynamic"], "--wake-scheme"),
-        ([*FLY, "--integrator", "fixed"], "not in this version yet"),
         ([*FLY, "--integrator", "rk4"], "integrator"),
         ([*FLY, "--revolutions", "0"], "revolutions"),
         ([*FLY, "--revolutions", "many"], "revolutions"),

@@ -23,7 +23,7 @@ fn invalid(error: impl std::fmt::Display) -> PyErr {
 
 /// What acts on the aircraft over one coupling step; see `wakeflight.flight`.
 #[pyclass(name = "Inputs", frozen)]
-pub struct PyInputs(Inputs);
+pub struct PyInputs(pub(crate) Inputs);
 
 #[pymethods]
 impl PyInputs {
@@ -90,7 +90,7 @@ impl PyTrimProblem {
 /// Aircraft of one condition.
 #[pyclass(name = "Aircraft", frozen)]
 pub struct PyAircraft {
-    inner: Aircraft,
+    pub(crate) inner: Aircraft,
 }
 
 fn hub_vector(v: [f64; 3]) -> Vec3<f64, Hub> {
@@ -157,6 +157,21 @@ impl PyAircraft {
     ) -> PyResult<()> {
         self.inner.residual(t, y.as_slice()?, y_dot.as_slice()?, &inputs.0, out.as_slice_mut()?);
         Ok(())
+    }
+
+    /// y_dot that satisfies F = 0 at (t, y).
+    fn consistent_rate<'py>(
+        &self,
+        py: Python<'py>,
+        t: f64,
+        y: PyReadonlyArray1<f64>,
+        inputs: &PyInputs,
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let rate = self
+            .inner
+            .consistent_rate(t, y.as_slice()?, &inputs.0)
+            .map_err(|e| pyo3::exceptions::PyArithmeticError::new_err(e.to_string()))?;
+        Ok(rate.into_pyarray(py))
     }
 
     /// a dF/dy + b dF/dy_dot into `out` (n, n).

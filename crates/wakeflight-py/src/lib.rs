@@ -4,6 +4,7 @@ use pyo3::prelude::*;
 mod aircraft;
 mod atmosphere;
 mod blade;
+mod flight;
 mod rotor;
 mod stand;
 mod vortex;
@@ -16,6 +17,7 @@ fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
     atmosphere::register(m)?;
     aircraft::register(m)?;
     blade::register(m)?;
+    flight::register(m)?;
     stand::register(m)?;
     vortex::register(m)?;
     wake::register(m)?;

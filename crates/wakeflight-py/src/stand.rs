@@ -71,11 +71,11 @@ impl PyStandProblem {
 /// and rates (6), a stick is theta_0, theta_1c, theta_1s.
 #[pyclass(name = "Stand", frozen)]
 pub struct PyStand {
-    inner: Stand,
-    higher: Vec<PitchHarmonic>,
+    pub(crate) inner: Stand,
+    pub(crate) higher: Vec<PitchHarmonic>,
 }
 
-fn hub_state(y: &[f64]) -> PyResult<([f64; 3], [f64; 3])> {
+pub(crate) fn hub_state(y: &[f64]) -> PyResult<([f64; 3], [f64; 3])> {
     match y {
         [u, v, w, p, q, r] => Ok(([*u, *v, *w], [*p, *q, *r])),
         _ => Err(invalid(format!("hub motion has {} numbers, 6 needed", y.len()))),

@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use wakeflight::wake::{self, BladeState, HubMotion, StepReport, WakeError, WakeOptions};
 
 /// Input at fault: ValueError; numerical failure: ArithmeticError.
-fn py_error(error: WakeError) -> PyErr {
+pub(crate) fn py_error(error: WakeError) -> PyErr {
     if error.is_numerical() {
         PyArithmeticError::new_err(error.to_string())
     } else {
@@ -15,7 +15,7 @@ fn py_error(error: WakeError) -> PyErr {
     }
 }
 
-fn parse_options(options_json: &str) -> PyResult<WakeOptions> {
+pub(crate) fn parse_options(options_json: &str) -> PyResult<WakeOptions> {
     serde_json::from_str(options_json).map_err(|e| PyValueError::new_err(format!("wake options: {e}")))
 }
 
@@ -28,12 +28,12 @@ fn row_major<const N: usize>(name: &str, array: &PyReadonlyArray2<'_, f64>) -> P
     Ok(view.rows().into_iter().map(|row| std::array::from_fn(|c| row[c])).collect())
 }
 
-fn flat(array: &PyReadonlyArray2<'_, f64>) -> Vec<f64> {
+pub(crate) fn flat(array: &PyReadonlyArray2<'_, f64>) -> Vec<f64> {
     array.as_array().iter().copied().collect()
 }
 
 /// (n, m) array from row-major values.
-fn matrix<'py, T: Element>(
+pub(crate) fn matrix<'py, T: Element>(
     py: Python<'py>,
     values: Vec<T>,
     rows: usize,
@@ -45,7 +45,11 @@ fn matrix<'py, T: Element>(
 }
 
 /// (n, m, 3) array from row-major vectors.
-fn vectors<'py>(py: Python<'py>, values: &[[f64; 3]], rows: usize) -> PyResult<Bound<'py, PyArray3<f64>>> {
+pub(crate) fn vectors<'py>(
+    py: Python<'py>,
+    values: &[[f64; 3]],
+    rows: usize,
+) -> PyResult<Bound<'py, PyArray3<f64>>> {
     let columns = values.len().checked_div(rows).unwrap_or(0);
     let array = Array::from_shape_vec((rows, columns, 3), values.as_flattened().to_vec())
         .map_err(|e| PyValueError::new_err(e.to_string()))?;
@@ -74,8 +78,8 @@ fn near_wake_matrix<'py>(
 /// Periodic wake of a steady flight condition.
 #[pyclass(module = "wakeflight._core")]
 #[derive(Clone)]
-struct RelaxationWake {
-    inner: wake::RelaxationWake,
+pub(crate) struct RelaxationWake {
+    pub(crate) inner: wake::RelaxationWake,
 }
 
 #[pymethods]

@@ -211,7 +211,7 @@ impl Airfoil {
     /// Lift, drag (increment included) and quarter-chord moment coefficients, bilinear.
     ///
     /// `alpha` [rad]: any angle, taken to -pi..pi. `mach`: held beyond the table.
-    #[inline]
+    #[inline(always)]
     pub fn coefficients<S: Real>(&self, alpha: S, mach: S) -> (S, S, S) {
         let mut angle = alpha.re();
         if angle.abs() > PI {
@@ -222,17 +222,31 @@ impl Airfoil {
         let n_mach = self.mach.nodes.len();
         let low = &self.nodes[i * n_mach + j..][..2];
         let high = &self.nodes[(i + 1) * n_mach + j..][..2];
-        let coefficient = |k: usize| {
-            let (v00, v01, v10, v11) = (low[0][k], low[1][k], high[0][k], high[1][k]);
-            let at_low = v00 + g * (v01 - v00);
-            let at_high = v10 + g * (v11 - v10);
-            let by_mach = (v01 - v00) + f * ((v11 - v10) - (v01 - v00));
-            // the value and its two slopes: exact derivatives at the cost of two products
-            alpha.chain(at_low + f * (at_high - at_low), df * (at_high - at_low))
-                + mach.chain(0.0, dg * by_mach)
-        };
-        (coefficient(0), coefficient(1), coefficient(2))
+        let cell = (low, high);
+        (
+            interpolated(cell, 0, (f, df), (g, dg), alpha, mach),
+            interpolated(cell, 1, (f, df), (g, dg), alpha, mach),
+            interpolated(cell, 2, (f, df), (g, dg), alpha, mach),
+        )
     }
+}
+
+/// Coefficient `k` in a cell at position (f, g), whose derivatives by angle and Mach number are (df, dg).
+#[inline(always)]
+fn interpolated<S: Real>(
+    (low, high): (&[[f64; 3]], &[[f64; 3]]),
+    k: usize,
+    (f, df): (f64, f64),
+    (g, dg): (f64, f64),
+    alpha: S,
+    mach: S,
+) -> S {
+    let (v00, v01, v10, v11) = (low[0][k], low[1][k], high[0][k], high[1][k]);
+    let at_low = v00 + g * (v01 - v00);
+    let at_high = v10 + g * (v11 - v10);
+    let by_mach = (v01 - v00) + f * ((v11 - v10) - (v01 - v00));
+    // the value and its two slopes: exact derivatives at the cost of two products
+    alpha.chain(at_low + f * (at_high - at_low), df * (at_high - at_low)) + mach.chain(0.0, dg * by_mach)
 }
 
 #[cfg(test)]

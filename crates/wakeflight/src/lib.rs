@@ -19,3 +19,5 @@ pub mod rotor;
 pub mod airframe;
 
 pub mod aircraft;
+
+pub mod integrate;

@@ -115,6 +115,7 @@ impl Aircraft {
     }
 
     /// Blade pitch from the swashplate at azimuth `psi` and time `t`, with exact rates.
+    #[inline(always)]
     pub fn blade_pitch<S: Real>(&self, inputs: &Inputs, t: f64, psi: f64) -> PitchMotion<S> {
         let p = self.rotor.rigging.blade_pitch(inputs.stick_at(t), inputs.stick_rate, psi, self.rotor.omega);
         PitchMotion {

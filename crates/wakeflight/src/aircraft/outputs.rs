@@ -46,8 +46,8 @@ impl Aircraft {
         let n_blades = self.rotor.n_blades;
         let blades: Vec<_> = (0..n_blades).map(|b| self.blade_loads(t, y, y_dot, inputs, &hub, b)).collect();
         let rotor = RotorLoads::sum(&blades);
-        let loads = self.airframe_loads(t, y, inputs, &rotor);
         let [beta_1c, beta_1s] = self.flap_multiblade(t, y);
+        let loads = self.airframe_loads(t, y, inputs, &rotor, beta_1c);
         let mut o = Outputs {
             force: Vec3::array(loads.force),
             moment: Vec3::array(loads.moment),

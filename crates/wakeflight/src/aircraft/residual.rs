@@ -32,12 +32,17 @@ impl<S: Real> RotorLoads<S> {
             aero_moment: Vec3::zero(),
         };
         for b in blades {
-            total.force += b.force;
-            total.moment += b.moment;
-            total.aero_force += b.aero_force;
-            total.aero_moment += b.aero_moment;
+            total.add(b);
         }
         total
+    }
+
+    /// One blade more.
+    pub fn add(&mut self, b: &BladeLoads<S>) {
+        self.force += b.force;
+        self.moment += b.moment;
+        self.aero_force += b.aero_force;
+        self.aero_moment += b.aero_moment;
     }
 }
 
@@ -57,19 +62,31 @@ pub struct AirframeLoads<S> {
 impl Aircraft {
     /// Residual at time `t`: accelerations [m/s2, rad/s2], rates of the kinematic and inflow states, modal forces.
     pub fn residual<S: Real>(&self, t: f64, y: &[S], y_dot: &[S], inputs: &Inputs, f: &mut [S]) {
+        let l = &self.layout;
         let hub = self.hub_motion(y, y_dot);
-        let blades: Vec<BladeLoads<S>> =
-            (0..self.rotor.n_blades).map(|b| self.blade_loads(t, y, y_dot, inputs, &hub, b)).collect();
-        self.assemble(t, y, y_dot, inputs, &blades, f);
+        let mut rotor = RotorLoads::sum(&[]);
+        for b in 0..self.rotor.n_blades {
+            let blade = self.blade_loads(t, y, y_dot, inputs, &hub, b);
+            let (q, s) = (l.modal(b).start, l.modal_rate(b).start);
+            for i in 0..l.n_modes {
+                f[q + i] = y_dot[q + i] - y[s + i];
+                f[s + i] = blade.modal[i];
+            }
+            rotor.add(&blade);
+        }
+        let beta_1c = self.flap_multiblade(t, y)[0];
+        self.body_rows(t, y, y_dot, inputs, &rotor, beta_1c, f);
     }
 
     /// Gravity in body axes [m/s2].
+    #[inline(always)]
     pub fn gravity_b<S: Real>(&self, y: &[S]) -> Vec3<S, Body> {
         let q = [y[6], y[7], y[8], y[9]];
         rot_ib(q).transposed() * Vec3::<S, Inertial>::cst([0.0, 0.0, self.gravity])
     }
 
     /// Motion of the hub.
+    #[inline(always)]
     pub fn hub_motion<S: Real>(&self, y: &[S], y_dot: &[S]) -> HubMotion<S> {
         self.rotor.hub_motion(
             body_vector(y, Layout::VELOCITY),
@@ -81,6 +98,7 @@ impl Aircraft {
     }
 
     /// Modal motion of blade `b`.
+    #[inline(always)]
     pub fn modal_motion<S: Real>(&self, y: &[S], y_dot: &[S], b: usize) -> ModalMotion<S> {
         let l = &self.layout;
         ModalMotion {
@@ -91,6 +109,7 @@ impl Aircraft {
     }
 
     /// Loads of blade `b`.
+    #[inline(always)]
     pub fn blade_loads<S: Real>(
         &self,
         t: f64,
@@ -107,6 +126,7 @@ impl Aircraft {
     }
 
     /// Inflow that blade `b` feels.
+    #[inline(always)]
     pub fn blade_inflow<'a, S: Real>(&self, y: &[S], inputs: &'a Inputs, b: usize) -> BladeInflow<'a, S> {
         match &inputs.inflow {
             HeldInflow::Dynamic => {
@@ -151,6 +171,7 @@ impl Aircraft {
         y: &[S],
         inputs: &Inputs,
         rotor: &RotorLoads<S>,
+        beta_1c: S,
     ) -> AirframeLoads<S> {
         if matches!(inputs.inflow, HeldInflow::Vacuum) {
             let to_body = self.rotor.rot_hb::<S>().transposed();
@@ -167,7 +188,6 @@ impl Aircraft {
         let theta_tr = self.rotor.rigging.pitch(inputs.stick_at(t).map(S::cst))[3];
         let tail_inflow = if self.layout.tail_rotor { y[self.layout.tail_inflow().start] } else { S::zero() };
         let incidence = S::cst(inputs.stabilator_incidence);
-        let beta_1c = self.flap_multiblade(t, y)[0];
         self.loads_on_airframe(
             y,
             rotor,
@@ -213,21 +233,22 @@ impl Aircraft {
         }
     }
 
-    /// The equations, given the loads of every blade.
-    pub(super) fn assemble<S: Real>(
+    /// All equations but the blades', given the loads of the rotor and its flapping `beta_1c` [rad].
+    #[allow(clippy::too_many_arguments, reason = "the arguments of F and what the blades bring")]
+    pub(super) fn body_rows<S: Real>(
         &self,
         t: f64,
         y: &[S],
         y_dot: &[S],
         inputs: &Inputs,
-        blades: &[BladeLoads<S>],
+        rotor: &RotorLoads<S>,
+        beta_1c: S,
         f: &mut [S],
     ) {
         let l = &self.layout;
         let velocity = body_vector(y, Layout::VELOCITY);
         let rates = body_vector(y, Layout::RATES);
-        let rotor = RotorLoads::sum(blades);
-        let loads = self.airframe_loads(t, y, inputs, &rotor);
+        let loads = self.airframe_loads(t, y, inputs, rotor, beta_1c);
 
         // balance of forces and moments on the airframe
         let (inertia_force, inertia_moment) = self.airframe.mass.inertial_residual(
@@ -256,19 +277,10 @@ impl Aircraft {
             f[10 + i] = y_dot[10 + i] - rate;
         }
 
-        // blades
-        for (b, blade) in blades.iter().enumerate() {
-            let (q, s) = (l.modal(b).start, l.modal_rate(b).start);
-            for i in 0..l.n_modes {
-                f[q + i] = y_dot[q + i] - y[s + i];
-                f[s + i] = blade.modal[i];
-            }
-        }
-
         // inflow
         if l.dynamic_inflow {
             let i = l.inflow().start;
-            let rate = self.inflow_rate(velocity, rates, &rotor, [y[i], y[i + 1], y[i + 2]]);
+            let rate = self.inflow_rate(velocity, rates, rotor, [y[i], y[i + 1], y[i + 2]]);
             for k in 0..3 {
                 f[i + k] = y_dot[i + k] - rate[k];
             }

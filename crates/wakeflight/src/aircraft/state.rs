@@ -18,17 +18,6 @@ pub struct Layout {
     pub tail_rotor: bool,
 }
 
-/// What a column of the Jacobian belongs to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Owner {
-    /// Felt by every blade: body velocity, rates, attitude, disk inflow.
-    Everyone,
-    /// Felt by the airframe and kinematics alone.
-    Airframe,
-    /// One blade.
-    Blade(usize),
-}
-
 impl Layout {
     /// u, v, w [m/s].
     pub const VELOCITY: Range<usize> = 0..3;
@@ -86,24 +75,16 @@ impl Layout {
         }
         names
     }
-    /// Whom state `i` concerns directly.
-    pub fn owner(&self, i: usize) -> Owner {
-        if i < Self::ATTITUDE.end || self.inflow().contains(&i) {
-            Owner::Everyone
-        } else if i < Self::POSITION.end || self.tail_inflow().contains(&i) {
-            Owner::Airframe
-        } else {
-            Owner::Blade((i - 13) / (2 * self.n_modes))
-        }
-    }
 }
 
 /// Three entries of y as a body vector.
+#[inline(always)]
 pub fn body_vector<S: Real>(y: &[S], range: Range<usize>) -> Vec3<S, Body> {
     Vec3::new(y[range.start], y[range.start + 1], y[range.start + 2])
 }
 
 /// Entries of y as a modal array.
+#[inline(always)]
 pub fn modal_array<S: Real>(y: &[S], range: Range<usize>) -> [S; MAX_MODES] {
     let mut out = [S::zero(); MAX_MODES];
     for (o, i) in out.iter_mut().zip(range) {

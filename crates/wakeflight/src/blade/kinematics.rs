@@ -81,10 +81,6 @@ pub struct SectionMotion<S> {
     pub omega: Vec3<S, BladeAxes>,
     /// Its time derivative in blade axes [rad/s2].
     pub omega_dot: Vec3<S, BladeAxes>,
-    /// Flap angle B, lead angle L of the tangent [rad].
-    pub flap: S,
-    /// Lead angle.
-    pub lead: S,
     angles: Angles<S>,
     shortening_gradient: [S; MAX_MODES],
 }
@@ -134,7 +130,10 @@ impl StationShapes {
             u_dot += m.q_dot[i] * self.shortening_twist[i];
             u_ddot += m.q_ddot[i] * self.shortening_twist[i];
         }
-        let mut gradient = self.shortening_twist.map(S::cst);
+        let mut gradient = [S::zero(); MAX_MODES];
+        for i in 0..k {
+            gradient[i] = S::cst(self.shortening_twist[i]);
+        }
         if self.length > 0.0 {
             let root = (S::one() - sum / self.length).sqrt();
             let half = S::cst(0.5) / root;
@@ -145,15 +144,23 @@ impl StationShapes {
                 gradient[i] += half * slopes[i] * 2.0;
             }
         }
-        let v = |d: usize, q: &[S; MAX_MODES]| combine(&self.v[d], q, k);
-        let w = |d: usize, q: &[S; MAX_MODES]| combine(&self.w[d], q, k);
-        let position = Vec3::new(S::cst(self.x) - u, v(0, &m.q), w(0, &m.q));
-        let velocity = Vec3::new(-u_dot, v(0, &m.q_dot), w(0, &m.q_dot));
-        let acceleration = Vec3::new(-u_ddot, v(0, &m.q_ddot), w(0, &m.q_ddot));
+        let position =
+            Vec3::new(S::cst(self.x) - u, combine(&self.v[0], &m.q, k), combine(&self.w[0], &m.q, k));
+        let velocity = Vec3::new(-u_dot, combine(&self.v[0], &m.q_dot, k), combine(&self.w[0], &m.q_dot, k));
+        let acceleration =
+            Vec3::new(-u_ddot, combine(&self.v[0], &m.q_ddot, k), combine(&self.w[0], &m.q_ddot, k));
 
         // flap angle B and lead angle L with rates
-        let (dv, dv_dot, dv_ddot) = (v(1, &m.q), v(1, &m.q_dot), v(1, &m.q_ddot));
-        let (sin_b, dw_dot, dw_ddot) = (w(1, &m.q), w(1, &m.q_dot), w(1, &m.q_ddot));
+        let (dv, dv_dot, dv_ddot) = (
+            combine(&self.v[1], &m.q, k),
+            combine(&self.v[1], &m.q_dot, k),
+            combine(&self.v[1], &m.q_ddot, k),
+        );
+        let (sin_b, dw_dot, dw_ddot) = (
+            combine(&self.w[1], &m.q, k),
+            combine(&self.w[1], &m.q_dot, k),
+            combine(&self.w[1], &m.q_ddot, k),
+        );
         let cos_b = (S::one() - sin_b * sin_b).sqrt();
         let inv_b = S::one() / cos_b;
         let b_dot = dw_dot * inv_b;
@@ -197,8 +204,6 @@ impl StationShapes {
             n,
             omega,
             omega_dot,
-            flap: sin_b.asin(),
-            lead: sin_l.asin(),
             angles: Angles { sin_b, cos_b, sin_l, cos_l, dv, b_dot, l_dot },
             shortening_gradient: gradient,
         }
@@ -228,6 +233,12 @@ impl<S: Real> SectionMotion<S> {
         let b_i = inv_b * shapes.w[1][i];
         let l_i = (inv_b * shapes.v[1][i] + a.dv * a.sin_b * inv_b * inv_b * b_i) / a.cos_l;
         (b_i, l_i)
+    }
+
+    /// Flap angle B and lead angle L of the tangent [rad].
+    #[inline(always)]
+    pub fn tangent_angles(&self) -> (S, S) {
+        (self.angles.sin_b.asin(), self.angles.sin_l.asin())
     }
 
     /// Rates of flap angle and lead angle [rad/s].

@@ -66,6 +66,30 @@ pub struct BladeLoads<S> {
     pub aero_moment: Vec3<S, Hub>,
 }
 
+impl<S: Real> BladeLoads<S> {
+    /// Loads without their derivatives.
+    pub fn values(&self) -> BladeLoads<f64> {
+        let plain = |v: Vec3<S, Hub>| Vec3::new(v.x.re(), v.y.re(), v.z.re());
+        BladeLoads {
+            modal: std::array::from_fn(|i| self.modal[i].re()),
+            force: plain(self.force),
+            moment: plain(self.moment),
+            aero_force: plain(self.aero_force),
+            aero_moment: plain(self.aero_moment),
+        }
+    }
+    /// No loads.
+    pub fn zero() -> Self {
+        Self {
+            modal: [S::zero(); MAX_MODES],
+            force: Vec3::zero(),
+            moment: Vec3::zero(),
+            aero_force: Vec3::zero(),
+            aero_moment: Vec3::zero(),
+        }
+    }
+}
+
 /// What surrounds a blade and turns it.
 #[derive(Clone, Copy, Debug)]
 pub struct BladeEnvironment<'a> {
@@ -89,30 +113,53 @@ struct Carrier<S> {
 
 impl<S: Real> Carrier<S> {
     /// Blade axes at azimuth `psi`, turned up by `precone`, on a hub in motion `hub`.
+    #[inline(always)]
     fn new(hub: &HubMotion<S>, psi: S, precone: f64, rotor_speed: f64) -> Self {
         let (s, c) = psi.sin_cos();
         let (sp, cp) = precone.sin_cos();
         let zero = S::zero();
         let to_blade = [[c * cp, s * cp, S::cst(sp)], [-s, c, zero], [-(c * sp), -(s * sp), S::cst(cp)]];
-        let turn = |v: Vec3<S, Hub>| {
-            let row = |r: &[S; 3]| r[0] * v.x + r[1] * v.y + r[2] * v.z;
-            Vec3::new(row(&to_blade[0]), row(&to_blade[1]), row(&to_blade[2]))
-        };
         let spin: Vec3<S, Hub> = Vec3::cst([0.0, 0.0, rotor_speed]);
         Self {
-            velocity: turn(hub.velocity),
-            acceleration: turn(hub.acceleration_less_gravity),
-            omega: turn(hub.omega + spin),
-            omega_dot: turn(hub.omega_dot + hub.omega.cross(spin)),
+            velocity: turned(&to_blade, hub.velocity),
+            acceleration: turned(&to_blade, hub.acceleration_less_gravity),
+            omega: turned(&to_blade, hub.omega + spin),
+            omega_dot: turned(&to_blade, hub.omega_dot + hub.omega.cross(spin)),
             up: Vec3::cst([sp, 0.0, cp]),
             to_blade,
         }
     }
+    #[inline(always)]
     fn to_hub(&self, v: Vec3<S, BladeAxes>) -> Vec3<S, Hub> {
         let m = &self.to_blade;
-        let column = |j: usize| m[0][j] * v.x + m[1][j] * v.y + m[2][j] * v.z;
-        Vec3::new(column(0), column(1), column(2))
+        Vec3::new(
+            m[0][0] * v.x + m[1][0] * v.y + m[2][0] * v.z,
+            m[0][1] * v.x + m[1][1] * v.y + m[2][1] * v.z,
+            m[0][2] * v.x + m[1][2] * v.y + m[2][2] * v.z,
+        )
     }
+}
+
+// functions instead of closures: a closure would not be compiled for the vectors that its caller runs in
+
+/// Components in blade axes, by the rows of the rotation.
+#[inline(always)]
+fn turned<S: Real>(m: &[[S; 3]; 3], v: Vec3<S, Hub>) -> Vec3<S, BladeAxes> {
+    Vec3::new(
+        m[0][0] * v.x + m[0][1] * v.y + m[0][2] * v.z,
+        m[1][0] * v.x + m[1][1] * v.y + m[1][2] * v.z,
+        m[2][0] * v.x + m[2][1] * v.y + m[2][2] * v.z,
+    )
+}
+
+/// Inertia about the principal axes t, c, n, times `v`.
+#[inline(always)]
+fn inertia_times<S: Real>(
+    inertia: &[f64; 3],
+    m: &SectionMotion<S>,
+    v: Vec3<S, BladeAxes>,
+) -> Vec3<S, BladeAxes> {
+    m.t * (v.dot(m.t) * inertia[0]) + m.c * (v.dot(m.c) * inertia[1]) + m.n * (v.dot(m.n) * inertia[2])
 }
 
 /// Force and moment about the hub, blade axes.
@@ -122,9 +169,11 @@ struct Sum<S> {
 }
 
 impl<S: Real> Sum<S> {
+    #[inline(always)]
     fn new() -> Self {
         Self { force: Vec3::zero(), moment: Vec3::zero() }
     }
+    #[inline(always)]
     fn add(&mut self, position: Vec3<S, BladeAxes>, force: Vec3<S, BladeAxes>, moment: Vec3<S, BladeAxes>) {
         self.force += force;
         self.moment += position.cross(force) + moment;
@@ -133,6 +182,7 @@ impl<S: Real> Sum<S> {
 
 impl Blade {
     /// Residual of the modal equations and hub loads at azimuth `psi` [rad].
+    #[inline(always)]
     pub fn loads<S: Real>(
         &self,
         environment: &BladeEnvironment,
@@ -144,25 +194,8 @@ impl Blade {
     ) -> BladeLoads<S> {
         let carrier = Carrier::new(hub, psi, self.precone, environment.rotor_speed);
         let mut work = [S::zero(); MAX_MODES];
-        let mut inertial = Sum::new();
-        for point in &self.structure {
-            let (motion, force, moment) = self.inertial_loads(point, &carrier, modal, control);
-            self.project(&point.shapes, &motion, force, moment, &mut work);
-            inertial.add(motion.position, force, moment);
-            let mut gradient = [S::zero(); MAX_MODES];
-            let pitch = control.theta + point.twist;
-            add_strain_gradient(
-                &point.shapes,
-                &point.stiffness,
-                self.n_modes,
-                &modal.q,
-                pitch,
-                &mut gradient,
-            );
-            for i in 0..self.n_modes {
-                work[i] -= gradient[i];
-            }
-        }
+        let inertial = self.add_inertia(&carrier, modal, control, &mut work);
+        self.add_strain(modal, control, &mut work);
         let mut aero = Sum::new();
         if !matches!(inflow, BladeInflow::Vacuum) {
             for j in 0..self.stations.len() {
@@ -182,7 +215,71 @@ impl Blade {
         }
     }
 
+    /// Inertia and gravity alone: all that depends on accelerations.
+    #[inline(always)]
+    pub fn inertia<S: Real>(
+        &self,
+        rotor_speed: f64,
+        hub: &HubMotion<S>,
+        psi: S,
+        modal: &ModalMotion<S>,
+        control: &PitchMotion<S>,
+    ) -> BladeLoads<S> {
+        let carrier = Carrier::new(hub, psi, self.precone, rotor_speed);
+        let mut work = [S::zero(); MAX_MODES];
+        let inertial = self.add_inertia(&carrier, modal, control, &mut work);
+        BladeLoads {
+            modal: work,
+            force: carrier.to_hub(inertial.force),
+            moment: carrier.to_hub(inertial.moment),
+            aero_force: Vec3::zero(),
+            aero_moment: Vec3::zero(),
+        }
+    }
+
+    #[inline(always)]
+    fn add_inertia<S: Real>(
+        &self,
+        carrier: &Carrier<S>,
+        modal: &ModalMotion<S>,
+        control: &PitchMotion<S>,
+        work: &mut [S; MAX_MODES],
+    ) -> Sum<S> {
+        let mut sum = Sum::new();
+        for point in &self.structure {
+            let (motion, force, moment) = self.inertial_loads(point, carrier, modal, control);
+            self.project(&point.shapes, &motion, force, moment, work);
+            sum.add(motion.position, force, moment);
+        }
+        sum
+    }
+
+    #[inline(always)]
+    fn add_strain<S: Real>(
+        &self,
+        modal: &ModalMotion<S>,
+        control: &PitchMotion<S>,
+        work: &mut [S; MAX_MODES],
+    ) {
+        let mut gradient = [S::zero(); MAX_MODES];
+        for point in &self.structure {
+            let pitch = control.theta + point.twist;
+            add_strain_gradient(
+                &point.shapes,
+                &point.stiffness,
+                self.n_modes,
+                &modal.q,
+                pitch,
+                &mut gradient,
+            );
+        }
+        for i in 0..self.n_modes {
+            work[i] -= gradient[i];
+        }
+    }
+
     /// Air at every station; velocities need no accelerations, so `modal.q_ddot` is ignored.
+    #[inline(always)]
     pub fn air<S: Real>(
         &self,
         environment: &BladeEnvironment,
@@ -201,6 +298,7 @@ impl Blade {
         }
     }
 
+    #[inline(always)]
     fn inertial_loads<S: Real>(
         &self,
         point: &StructuralPoint,
@@ -221,18 +319,14 @@ impl Blade {
         // acceleration of the chord vector: the centre of gravity sits on it
         let chord_acceleration = omega_dot.cross(m.c) + omega.cross(omega.cross(m.c));
         let force = -(acceleration.scaled(point.mass) + chord_acceleration.scaled(point.first_moment));
-        // angular momentum about the elastic axis, principal axes t, c, n
-        let inertia = |v: Vec3<S, BladeAxes>| {
-            m.t * (v.dot(m.t) * point.inertia[0])
-                + m.c * (v.dot(m.c) * point.inertia[1])
-                + m.n * (v.dot(m.n) * point.inertia[2])
-        };
+        // angular momentum about the elastic axis
         let moment = -(m.c.cross(acceleration).scaled(point.first_moment)
-            + inertia(omega_dot)
-            + omega.cross(inertia(omega)));
+            + inertia_times(&point.inertia, &m, omega_dot)
+            + omega.cross(inertia_times(&point.inertia, &m, omega)));
         (m, force, moment)
     }
 
+    #[inline(always)]
     fn station_air<S: Real>(
         &self,
         environment: &BladeEnvironment,
@@ -254,6 +348,7 @@ impl Blade {
         (m, air)
     }
 
+    #[inline(always)]
     fn inflow_at<S: Real>(
         &self,
         inflow: &BladeInflow<S>,
@@ -272,6 +367,7 @@ impl Blade {
         }
     }
 
+    #[inline(always)]
     fn project<S: Real>(
         &self,
         shapes: &super::kinematics::StationShapes,
@@ -287,6 +383,7 @@ impl Blade {
     }
 
     /// Pitch-link spring and structural damping.
+    #[inline(always)]
     fn add_root_loads<S: Real>(&self, modal: &ModalMotion<S>, work: &mut [S; MAX_MODES]) {
         let wind_up = combine(&self.root_twist, &modal.q, self.n_modes);
         for i in 0..self.n_modes {

@@ -173,6 +173,7 @@ impl<S: Real, To, From> Mul<Vec3<S, From>> for Rotation<S, To, From> {
 ///
 /// x_h = -(u cos i + w sin i), y_h = v, z_h = u sin i - w cos i for tilt i forward alone
 /// (`flight-dynamics`, frames; lateral tilt as the shaft frame of [howlett1981]).
+#[inline(always)]
 pub fn rot_hb<S: Real>(tilt_forward: f64, tilt_lateral: f64) -> Rotation<S, Hub, Body> {
     let (st, ct) = (-tilt_forward).sin_cos();
     let (sp, cp) = tilt_lateral.sin_cos();
@@ -194,6 +195,7 @@ pub fn rot_rh<S: Real>(psi: S) -> Rotation<S, Rotating, Hub> {
 }
 
 /// Rotation from body to inertial axes for a quaternion (w, x, y, z), normalised here.
+#[inline(always)]
 pub fn rot_ib<S: Real>(q: [S; 4]) -> Rotation<S, Inertial, Body> {
     let n = S::one() / (q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
     let [w, x, y, z] = q;

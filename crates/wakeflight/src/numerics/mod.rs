@@ -1,5 +1,6 @@
-//! Scalars and duals, frames and vectors, tables.
+//! Scalars and duals, frames and vectors, tables, small linear systems, wide vectors.
 pub mod frames;
 pub mod jacobian;
 pub mod scalar;
 pub mod tables;
+pub mod wide;

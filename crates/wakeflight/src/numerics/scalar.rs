@@ -31,29 +31,35 @@ pub trait Real:
     fn chain(self, f: f64, df: f64) -> Self;
 
     /// 0
+    #[inline(always)]
     fn zero() -> Self {
         Self::cst(0.0)
     }
     /// 1
+    #[inline(always)]
     fn one() -> Self {
         Self::cst(1.0)
     }
     /// Square root; derivative at zero is infinite, callers keep away from it.
+    #[inline(always)]
     fn sqrt(self) -> Self {
         let root = self.re().sqrt();
         self.chain(root, 0.5 / root)
     }
     /// Sine and cosine.
+    #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
         let (s, c) = self.re().sin_cos();
         (self.chain(s, c), self.chain(c, -s))
     }
     /// Arcsine.
+    #[inline(always)]
     fn asin(self) -> Self {
         let x = self.re();
         self.chain(x.asin(), 1.0 / (1.0 - x * x).sqrt())
     }
     /// Arctangent of y/x with the quadrant of (x, y); `self` is y.
+    #[inline(always)]
     fn atan2(self, x: Self) -> Self {
         let (yr, xr) = (self.re(), x.re());
         let squared = xr * xr + yr * yr;
@@ -64,24 +70,29 @@ pub trait Real:
         self.chain(yr.atan2(xr), xr / squared) + x.chain(0.0, -yr / squared)
     }
     /// Tangent.
+    #[inline(always)]
     fn tan(self) -> Self {
         let t = self.re().tan();
         self.chain(t, 1.0 + t * t)
     }
     /// Exponential.
+    #[inline(always)]
     fn exp(self) -> Self {
         let e = self.re().exp();
         self.chain(e, e)
     }
     /// Absolute value (derivative +1 at zero).
+    #[inline(always)]
     fn abs(self) -> Self {
         if self.re() < 0.0 { -self } else { self }
     }
     /// Square.
+    #[inline(always)]
     fn squared(self) -> Self {
         self * self
     }
     /// The value kept between two constants; outside, the derivative is zero.
+    #[inline(always)]
     fn clamped(self, low: f64, high: f64) -> Self {
         if self.re() < low {
             Self::cst(low)

@@ -26,6 +26,7 @@ pub struct Grid {
 }
 
 /// Cell index and position in it (0 to 1) of `value` on `axis`; outside, the end with zero derivative.
+#[inline(always)]
 fn cell<S: Real>(axis: &[f64], value: S) -> (usize, S) {
     let last = axis.len() - 1;
     if last == 0 || value.re() <= axis[0] {
@@ -41,6 +42,7 @@ fn cell<S: Real>(axis: &[f64], value: S) -> (usize, S) {
 
 impl Table {
     /// Value at `x`.
+    #[inline(always)]
     pub fn at<S: Real>(&self, x: S) -> S {
         let (i, f) = cell(&self.x, x);
         let y0 = self.y[i];
@@ -51,6 +53,7 @@ impl Table {
 
 impl Grid {
     /// Value at (`x`, `y`).
+    #[inline(always)]
     pub fn at<S: Real>(&self, x: S, y: S) -> S {
         let (i, f) = cell(&self.x, x);
         let (j, g) = cell(&self.y, y);

@@ -55,6 +55,7 @@ impl Rotor {
     }
 
     /// Rotation from body to hub axes.
+    #[inline(always)]
     pub fn rot_hb<S: Real>(&self) -> Rotation<S, Hub, Body> {
         rot_hb(self.shaft_tilt[0], self.shaft_tilt[1])
     }
@@ -65,6 +66,7 @@ impl Rotor {
     }
 
     /// Hub motion from body velocity, rates, their derivatives, and gravity [body axes].
+    #[inline(always)]
     pub fn hub_motion<S: Real>(
         &self,
         velocity_b: Vec3<S, Body>,
@@ -91,12 +93,14 @@ impl Rotor {
         psi + std::f64::consts::TAU * b as f64 / self.n_blades as f64
     }
 
+    #[inline(always)]
     fn environment(&self, air: Air) -> BladeEnvironment<'_> {
         BladeEnvironment { airfoil: &self.airfoil, air, rotor_speed: self.omega }
     }
 
     /// Loads of a blade with its damper, at azimuth `psi` for the stick position [m] and its rate [m/s].
     #[allow(clippy::too_many_arguments, reason = "the physical inputs of one blade")]
+    #[inline(always)]
     pub fn blade_loads<S: Real>(
         &self,
         air: Air,
@@ -111,8 +115,21 @@ impl Rotor {
         loads
     }
 
+    /// Inertia and gravity of a blade alone: all that depends on accelerations.
+    #[inline(always)]
+    pub fn blade_inertia<S: Real>(
+        &self,
+        hub: &HubMotion<S>,
+        psi: f64,
+        modal: &ModalMotion<S>,
+        control: &PitchMotion<S>,
+    ) -> BladeLoads<S> {
+        self.blade.inertia(self.omega, hub, S::cst(psi), modal, control)
+    }
+
     /// Visits the air at every station of a blade: (station, section, inflow).
     #[allow(clippy::too_many_arguments, reason = "the physical inputs of one blade")]
+    #[inline(always)]
     pub fn blade_air<S: Real>(
         &self,
         air: Air,
@@ -127,6 +144,7 @@ impl Rotor {
     }
 
     /// Virtual work of damper and hinge spring: they act between hub and blade and pass no load on.
+    #[inline(always)]
     fn add_damper<S: Real>(
         &self,
         modal: &ModalMotion<S>,
@@ -138,9 +156,10 @@ impl Rotor {
         let m = blade.root.motion(n, modal, control);
         let pitch = control.theta + combine(&blade.root.theta, &modal.q, n);
         let pitch_dot = control.theta_dot + combine(&blade.root.theta, &modal.q_dot, n);
+        let (flap, lead) = m.tangent_angles();
         let (flap_dot, lead_dot) = m.angle_rates();
-        let (force, stroke) = damper.force_and_gradient(m.lead, m.flap, pitch, lead_dot, flap_dot, pitch_dot);
-        let spring = damper.spring_moment(m.lead);
+        let (force, stroke) = damper.force_and_gradient(lead, flap, pitch, lead_dot, flap_dot, pitch_dot);
+        let spring = damper.spring_moment(lead);
         for (i, total) in work.iter_mut().enumerate().take(n) {
             let (flap_i, lead_i) = m.angle_gradient(&blade.root, i);
             let stroke_i = stroke[0] * lead_i + stroke[1] * flap_i + stroke[2] * blade.root.theta[i];

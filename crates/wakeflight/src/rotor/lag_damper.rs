@@ -34,6 +34,7 @@ impl LagDamper {
     /// With s = lead + zeta_geo, theta = pitch + theta_geo, beta = flap:
     /// x = a sin beta + c + (b cos s + d sin s) cos beta, y = -r cos theta - b sin s + d cos s,
     /// z = a cos beta - r sin theta - (b cos s + d sin s) sin beta, L = |(x, y, z)|.
+    #[inline(always)]
     pub fn length_and_gradient<S: Real>(&self, lead: S, flap: S, pitch: S) -> (S, [S; 3]) {
         let (ss, cs) = (lead + self.zeta_geo).sin_cos();
         let (sb, cb) = flap.sin_cos();
@@ -55,6 +56,7 @@ impl LagDamper {
     ///
     /// The force opposes the stroke: generalised moment on each angle = -force dL/dangle.
     /// Angles [rad], rates [rad/s]; lead forward +, flap up +, root pitch nose up + with the wind-up of the root.
+    #[inline(always)]
     pub fn force_and_gradient<S: Real>(
         &self,
         lead: S,
@@ -71,6 +73,7 @@ impl LagDamper {
     }
 
     /// Moment of the hinge spring on the lead angle [N m], -spring_rate (lead + zeta_geo).
+    #[inline(always)]
     pub fn spring_moment<S: Real>(&self, lead: S) -> S {
         (lead + self.zeta_geo) * -self.spring_rate
     }

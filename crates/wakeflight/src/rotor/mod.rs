@@ -1,6 +1,7 @@
 //! The rotor: swashplate, lag damper, hub, periodic blade motion, circulation with the near wake, the stand.
 pub mod circulation;
 pub mod data;
+pub mod exchange;
 pub mod hub;
 pub mod lag_damper;
 pub mod periodic;

@@ -81,6 +81,7 @@ impl<S: Real> PitchSeries<'_, S> {
 
 impl Rigging {
     /// Pitch controls (theta_1c, theta_1s, theta_0, theta_tr) [rad] of the sticks [m from the stop].
+    #[inline(always)]
     pub fn pitch<S: Real>(&self, stick: [S; 4]) -> [S; 4] {
         let mut pitch = self.pitch_rate(stick);
         for (p, &offset) in pitch.iter_mut().zip(&self.offset) {
@@ -90,6 +91,7 @@ impl Rigging {
     }
 
     /// Rates of the pitch controls [rad/s] of the stick rates [m/s].
+    #[inline(always)]
     pub fn pitch_rate<S: Real>(&self, stick_rate: [S; 4]) -> [S; 4] {
         let [lateral, longitudinal, collective, pedal] = stick_rate;
         self.matrix.map(|row| lateral * row[0] + longitudinal * row[1] + collective * row[2] + pedal * row[3])
@@ -99,6 +101,7 @@ impl Rigging {
     ///
     /// theta = theta_0 + theta_1c cos(psi + D) + theta_1s sin(psi + D), psi_dot = `omega` [rad/s] constant;
     /// stick histories are piecewise linear, so the sticks have no second derivative between their corners.
+    #[inline(always)]
     pub fn blade_pitch<S: Real>(
         &self,
         stick: [S; 4],

@@ -8,6 +8,7 @@ pub mod filament;
 pub mod geometry;
 pub mod inboard_sheet;
 pub mod initial;
+pub mod miss_distance;
 pub mod near_wake;
 pub mod options;
 pub mod relaxation;

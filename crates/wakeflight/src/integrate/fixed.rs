@@ -1,0 +1,352 @@
+//! Fixed steps of Radau IIA on F(y_dot, y, u; t) = 0, with one exact linearisation per step.
+//!
+//! The stages solve F(t_i, y + Z_i, K_i) = 0 by a modified Newton iteration: the derivatives are those of the start of
+//! the step. It ends when what it still lacks, |dZ| theta/(1 - theta) with the contraction theta seen, is below a share
+//! of the weights rtol |y| + atol in the root mean square [hairer1996, Sec. IV.8]. Where it does not contract, the step
+//! is halved.
+
+use super::blocks::{Factor, Singular};
+use super::radau::{Radau, STAGES};
+use crate::aircraft::jacobian::Slopes;
+use crate::aircraft::model::{Aircraft, Inputs};
+use crate::aircraft::state::Layout;
+use nalgebra::Complex;
+use thiserror::Error;
+
+/// Most Newton iterations of one step.
+const MAX_ITERATIONS: usize = 20;
+/// Most halvings of one step.
+const MAX_HALVINGS: u32 = 6;
+
+/// A step that could not be taken.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[error(
+    "fixed step stopped at t = {t:.4} s, azimuth of the first blade {azimuth:.1} deg: {reason}; largest residual \
+     {residual:.3e} in the equation of {equation}"
+)]
+pub struct StepFailure {
+    /// Start of the step [s].
+    pub t: f64,
+    /// Azimuth of the first blade there [deg].
+    pub azimuth: f64,
+    /// What went wrong.
+    pub reason: &'static str,
+    /// Largest residual.
+    pub residual: f64,
+    /// Its equation, by the name of the state.
+    pub equation: String,
+}
+
+/// Counted work.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counters {
+    /// Evaluations of F.
+    pub residual_evaluations: u64,
+    /// Linearisations.
+    pub jacobians: u64,
+    /// Factorisations of the pair of systems of a step.
+    pub factorisations: u64,
+    /// Newton iterations.
+    pub newton_iterations: u64,
+    /// Steps taken, parts of halved ones counted each.
+    pub steps: u64,
+    /// Steps halved.
+    pub halvings: u64,
+}
+
+/// Integration with steps that the caller sets, and all the room it needs.
+#[derive(Clone, Debug)]
+pub struct FixedStep {
+    method: Radau,
+    rtol: f64,
+    atol: Vec<f64>,
+    /// Share of the weights that the Newton iteration may leave.
+    newton_share: f64,
+    t: f64,
+    y: Vec<f64>,
+    y_dot: Vec<f64>,
+    /// Whether slopes and rate belong to the present state.
+    prepared: bool,
+    slopes: Slopes,
+    mass: Factor<f64>,
+    real: Factor<f64>,
+    complex: Factor<Complex<f64>>,
+    /// Step that the factors belong to [s].
+    factored: Option<f64>,
+    /// Rates at the stages of the last step, and its length.
+    rates: [Vec<f64>; STAGES],
+    last_step: Option<f64>,
+    z: [Vec<f64>; STAGES],
+    f: [Vec<f64>; STAGES],
+    stage: Vec<f64>,
+    right_real: Vec<f64>,
+    right_complex: Vec<Complex<f64>>,
+    counters: Counters,
+}
+
+impl FixedStep {
+    /// At state `y` and time `t` [s]; `atol` is the absolute tolerance of every state.
+    pub fn new(layout: Layout, t: f64, y: &[f64], rtol: f64, atol: &[f64], newton_share: f64) -> Self {
+        let n = layout.len();
+        let slopes = Slopes::new(layout);
+        let zeros = || std::array::from_fn(|_| vec![0.0; n]);
+        Self {
+            method: Radau::default(),
+            rtol,
+            atol: atol.to_vec(),
+            newton_share,
+            t,
+            y: y.to_vec(),
+            y_dot: vec![0.0; n],
+            prepared: false,
+            mass: Factor::new(&slopes),
+            real: Factor::new(&slopes),
+            complex: Factor::new(&slopes),
+            slopes,
+            factored: None,
+            rates: zeros(),
+            last_step: None,
+            z: zeros(),
+            f: zeros(),
+            stage: vec![0.0; n],
+            right_real: vec![0.0; n],
+            right_complex: vec![Complex::ZERO; n],
+            counters: Counters::default(),
+        }
+    }
+
+    /// Time [s].
+    pub fn time(&self) -> f64 {
+        self.t
+    }
+    /// State.
+    pub fn state(&self) -> &[f64] {
+        &self.y
+    }
+    /// Its rate: consistent with the inputs of the last `prepare`, or that of the end of the last step.
+    pub fn rate(&self) -> &[f64] {
+        &self.y_dot
+    }
+    /// Counted work.
+    pub fn counters(&self) -> Counters {
+        self.counters
+    }
+
+    /// Linearises at the present state and finds the rate that satisfies F = 0 with `inputs` from now on.
+    pub fn prepare(&mut self, aircraft: &Aircraft, inputs: &Inputs) -> Result<(), StepFailure> {
+        aircraft.slopes(self.t, &self.y, &self.y_dot, inputs, &mut self.slopes);
+        self.counters.jacobians += 1;
+        self.factored = None;
+        // F is linear in y_dot and the matrix is that of this state: one correction is exact
+        let f = &mut self.f[0];
+        aircraft.residual(self.t, &self.y, &self.y_dot, inputs, f);
+        self.counters.residual_evaluations += 1;
+        if self.mass.mass(&self.slopes).is_err() {
+            return Err(self.failure(aircraft, inputs, "the mass matrix is singular or not finite"));
+        }
+        self.right_real.copy_from_slice(&self.f[0]);
+        self.mass.solve(&self.slopes, &mut self.right_real);
+        for (rate, correction) in self.y_dot.iter_mut().zip(&self.right_real) {
+            *rate -= correction;
+        }
+        if !self.y_dot.iter().all(|v| v.is_finite()) {
+            return Err(self.failure(aircraft, inputs, "a rate of state is not finite"));
+        }
+        self.prepared = true;
+        Ok(())
+    }
+
+    /// Integrates to `t1` [s] in `parts` equal steps with `inputs` held.
+    pub fn advance(
+        &mut self,
+        aircraft: &Aircraft,
+        t1: f64,
+        inputs: &Inputs,
+        parts: usize,
+    ) -> Result<(), StepFailure> {
+        let t0 = self.t;
+        for part in 1..=parts {
+            let end = if part == parts { t1 } else { t0 + (t1 - t0) * part as f64 / parts as f64 };
+            self.step(aircraft, end, inputs, 0)?;
+        }
+        Ok(())
+    }
+
+    fn step(
+        &mut self,
+        aircraft: &Aircraft,
+        t1: f64,
+        inputs: &Inputs,
+        halvings: u32,
+    ) -> Result<(), StepFailure> {
+        if !self.prepared {
+            self.prepare(aircraft, inputs)?;
+        }
+        match self.attempt(aircraft, t1, inputs) {
+            Ok(()) => Ok(()),
+            Err(reason) if halvings >= MAX_HALVINGS => Err(self.failure(aircraft, inputs, reason)),
+            Err(_) => {
+                self.counters.halvings += 1;
+                self.last_step = None;
+                let middle = 0.5 * (self.t + t1);
+                self.step(aircraft, middle, inputs, halvings + 1)?;
+                self.step(aircraft, t1, inputs, halvings + 1)
+            }
+        }
+    }
+
+    /// One step by Newton's iteration; on an error the state is that of before.
+    fn attempt(&mut self, aircraft: &Aircraft, t1: f64, inputs: &Inputs) -> Result<(), &'static str> {
+        let h = t1 - self.t;
+        self.factor(h).map_err(|Singular| "the system of a step is singular or not finite")?;
+        self.predict(h);
+        let mut before = f64::INFINITY;
+        let mut contraction: f64 = 0.5;
+        for iteration in 0..MAX_ITERATIONS {
+            let change = self.iterate(aircraft, h, inputs);
+            self.counters.newton_iterations += 1;
+            if !change.is_finite() {
+                return Err("the Newton iteration left the finite numbers");
+            }
+            if iteration > 0 {
+                contraction = change / before;
+                if contraction >= 1.0 && change > self.newton_share {
+                    return Err("the Newton iteration does not contract");
+                }
+            }
+            before = change;
+            let lacking = if contraction < 1.0 { change * contraction / (1.0 - contraction) } else { change };
+            if lacking <= self.newton_share {
+                self.accept(h, t1);
+                return Ok(());
+            }
+        }
+        Err("the Newton iteration does not converge")
+    }
+
+    fn factor(&mut self, h: f64) -> Result<(), Singular> {
+        if self.factored != Some(h) {
+            let [re, im] = self.method.complex;
+            self.real.newton(&self.slopes, self.method.real / h)?;
+            self.complex.newton(&self.slopes, Complex::new(re / h, im / h))?;
+            self.factored = Some(h);
+            self.counters.factorisations += 1;
+        }
+        Ok(())
+    }
+
+    /// Stages to start from: the rates of the last step carried on and moved to the consistent rate at the start.
+    fn predict(&mut self, h: f64) {
+        let c = self.method.c;
+        let n = self.y.len();
+        for i in 0..n {
+            let mut rate = [self.y_dot[i]; STAGES];
+            if let Some(last) = self.last_step {
+                let k: [f64; STAGES] = std::array::from_fn(|s| self.rates[s][i]);
+                // quadratic through the rates of the last stages, its value at their end taken out
+                let newton = [
+                    (k[1] - k[0]) / (c[1] - c[0]),
+                    ((k[2] - k[1]) / (c[2] - c[1]) - (k[1] - k[0]) / (c[1] - c[0])) / (c[2] - c[0]),
+                ];
+                let at = |x: f64| newton[0] * (x - c[0]) + newton[1] * (x - c[0]) * (x - c[1]);
+                for s in 0..STAGES {
+                    rate[s] += at(1.0 + c[s] * h / last) - at(1.0);
+                }
+            }
+            for s in 0..STAGES {
+                self.z[s][i] = h * (0..STAGES).map(|j| self.method.a[s][j] * rate[j]).sum::<f64>();
+            }
+        }
+    }
+
+    /// One Newton iteration; returns the RMS of the change of the stages over the weights.
+    fn iterate(&mut self, aircraft: &Aircraft, h: f64, inputs: &Inputs) -> f64 {
+        let m = &self.method;
+        let n = self.y.len();
+        for s in 0..STAGES {
+            for i in 0..n {
+                self.stage[i] = self.y[i] + self.z[s][i];
+                self.rates[s][i] = (0..STAGES).map(|j| m.inverse[s][j] * self.z[j][i]).sum::<f64>() / h;
+            }
+            let t = self.t + m.c[s] * h;
+            aircraft.residual(t, &self.stage, &self.rates[s], inputs, &mut self.f[s]);
+        }
+        self.counters.residual_evaluations += STAGES as u64;
+        let w = &m.t_inverse;
+        for i in 0..n {
+            let r: [f64; STAGES] =
+                std::array::from_fn(|s| -(0..STAGES).map(|j| w[s][j] * self.f[j][i]).sum::<f64>());
+            self.right_real[i] = r[0];
+            self.right_complex[i] = Complex::new(r[1], r[2]);
+        }
+        self.real.solve(&self.slopes, &mut self.right_real);
+        self.complex.solve(&self.slopes, &mut self.right_complex);
+        let mut sum = 0.0;
+        for i in 0..n {
+            let dw = [self.right_real[i], self.right_complex[i].re, self.right_complex[i].im];
+            let weight = 1.0 / (self.rtol * self.y[i].abs() + self.atol[i]);
+            for s in 0..STAGES {
+                let dz: f64 = (0..STAGES).map(|j| m.t[s][j] * dw[j]).sum();
+                self.z[s][i] += dz;
+                sum += (dz * weight).powi(2);
+            }
+        }
+        (sum / (STAGES * n) as f64).sqrt()
+    }
+
+    /// Takes the last stage as the new state.
+    fn accept(&mut self, h: f64, t1: f64) {
+        let n = self.y.len();
+        for i in 0..n {
+            for s in 0..STAGES {
+                self.rates[s][i] =
+                    (0..STAGES).map(|j| self.method.inverse[s][j] * self.z[j][i]).sum::<f64>() / h;
+            }
+            self.y[i] += self.z[STAGES - 1][i];
+            self.y_dot[i] = self.rates[STAGES - 1][i];
+        }
+        // the length of the quaternion has no meaning and drifts with the error of the method
+        let norm = self.y[Layout::ATTITUDE].iter().map(|q| q * q).sum::<f64>().sqrt();
+        for q in &mut self.y[Layout::ATTITUDE] {
+            *q /= norm;
+        }
+        self.t = t1;
+        self.last_step = Some(h);
+        self.prepared = false;
+        self.counters.steps += 1;
+    }
+
+    fn failure(&self, aircraft: &Aircraft, inputs: &Inputs, reason: &'static str) -> StepFailure {
+        let mut f = vec![0.0; self.y.len()];
+        aircraft.residual(self.t, &self.y, &self.y_dot, inputs, &mut f);
+        // a state that is not a number makes every equation one: it is the one to name
+        let worst = self.y.iter().position(|v| !v.is_finite()).unwrap_or_else(|| {
+            let size = |v: f64| if v.is_nan() { f64::INFINITY } else { v.abs() };
+            (0..f.len()).max_by(|&a, &b| size(f[a]).total_cmp(&size(f[b]))).unwrap_or(0)
+        });
+        StepFailure {
+            t: self.t,
+            azimuth: (aircraft.rotor.omega * self.t).to_degrees().rem_euclid(360.0),
+            reason,
+            residual: f[worst],
+            equation: aircraft.layout.names().swap_remove(worst).0,
+        }
+    }
+}
+
+impl Aircraft {
+    /// Rate of state that satisfies F = 0 at (t, y): F is linear in it, so one solve with its matrix gives it.
+    ///
+    /// Fails where the mass matrix is singular, which no blade with mass has.
+    pub fn consistent_rate(&self, t: f64, y: &[f64], inputs: &Inputs) -> Result<Vec<f64>, Singular> {
+        let mut slopes = Slopes::new(self.layout);
+        self.mass_slopes(t, y, inputs, &mut slopes);
+        let mut mass = Factor::new(&slopes);
+        mass.mass(&slopes)?;
+        let mut rate = vec![0.0; y.len()];
+        self.residual(t, y, &vec![0.0; y.len()], inputs, &mut rate);
+        mass.solve(&slopes, &mut rate);
+        rate.iter_mut().for_each(|r| *r = -*r);
+        Ok(rate)
+    }
+}

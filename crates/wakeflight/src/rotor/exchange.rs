@@ -1,0 +1,188 @@
+//! The exchange between flight dynamics and the time-marching wake at the end of a coupling step.
+//!
+//! Circulation from the motion and the far inflow, the wake one step further, the far inflow anew, the circulation again:
+//! one call, with the near wakes of the blades found once.
+
+use super::circulation::BladeInstant;
+use super::hub::Rotor;
+use crate::blade::aerodynamics::Air;
+use crate::blade::loads::HubMotion;
+use crate::wake::miss_distance::miss_distance_in_cores;
+use crate::wake::{
+    BladeState, CirculationSolution, HubMotion as WakeHub, TimeMarchingWake, WakeError, near_wake_matrix,
+};
+
+/// What may be done beyond the plain exchange.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ExchangeOptions {
+    /// Passes after the step in which circulation and far inflow are found again, the wake held.
+    pub recorrect: usize,
+    /// Whether the far inflow is carried on linearly in azimuth: by half a step for the inflow held over the next step, by
+    /// a whole one for the circulation at its end.
+    pub extrapolate: bool,
+}
+
+/// What an exchange saw.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ExchangeReport {
+    /// Largest motion of a marker in the step, over R.
+    pub max_displacement: f64,
+    /// Odd-even content in time of the markers, over R.
+    pub odd_even: f64,
+    /// Smallest distance between blade and tip vortex, in core radii.
+    pub miss_distance: f64,
+    /// Circulation problems that did not converge.
+    pub not_converged: usize,
+}
+
+/// Rotor, air and motion of the hub at the exchange.
+struct Place<'a> {
+    rotor: &'a Rotor,
+    air: Air,
+    hub: &'a HubMotion<f64>,
+}
+
+impl Place<'_> {
+    fn solved(
+        &self,
+        blade: &BladeInstant,
+        far: &[f64],
+        near: &[f64],
+        start: &[f64],
+    ) -> Result<CirculationSolution, WakeError> {
+        self.rotor.blade_circulation(self.air, self.hub, blade, far, near, start)
+    }
+}
+
+/// Time-marching wake and the circulation and inflow that belong to it.
+#[derive(Clone, Debug)]
+pub struct MarchingExchange {
+    /// The wake.
+    pub wake: TimeMarchingWake,
+    options: ExchangeOptions,
+    /// Far inflow at the stations (n_blades, n_stations).
+    pub lambda_far: Vec<f64>,
+    before: Option<Vec<f64>>,
+    far_held: Vec<f64>,
+    /// Bound circulation (n_blades, n_stations) [m2/s].
+    pub circulation: Vec<f64>,
+    /// Total inflow held over the next step (n_blades, n_stations).
+    pub inflow: Vec<f64>,
+    blades: Vec<BladeInstant>,
+    states: Vec<BladeState>,
+    near_wakes: Vec<Vec<f64>>,
+}
+
+impl MarchingExchange {
+    /// From a wake with its far inflow, circulation and total inflow.
+    pub fn new(
+        wake: TimeMarchingWake,
+        options: ExchangeOptions,
+        lambda_far: Vec<f64>,
+        circulation: Vec<f64>,
+        inflow: Vec<f64>,
+    ) -> Self {
+        Self {
+            wake,
+            options,
+            far_held: lambda_far.clone(),
+            lambda_far,
+            before: None,
+            circulation,
+            inflow,
+            blades: Vec::new(),
+            states: Vec::new(),
+            near_wakes: Vec::new(),
+        }
+    }
+
+    /// The blades have reached the next step, the hub in motion `hub`.
+    pub fn advance(
+        &mut self,
+        rotor: &Rotor,
+        air: Air,
+        hub: &HubMotion<f64>,
+        blades: &[BladeInstant],
+    ) -> Result<ExchangeReport, WakeError> {
+        let wake_hub = WakeHub { velocity: hub.velocity.array(), rates: hub.omega.array() };
+        self.place(rotor, blades, &wake_hub)?;
+        let at = Place { rotor, air, hub };
+        let mut failed = self.solve(&at, true)?;
+        let step = self.wake.step(wake_hub, &self.states, &self.circulation)?;
+        self.renew_far();
+        failed += self.solve(&at, false)?;
+        for _ in 0..self.options.recorrect {
+            self.wake.set_circulation(&self.circulation)?;
+            self.lambda_far = self.wake.inflow_far();
+            failed += self.solve(&at, false)?;
+        }
+        if self.options.extrapolate {
+            self.hold_extrapolated(&at)?;
+        }
+        Ok(ExchangeReport {
+            max_displacement: step.max_displacement,
+            odd_even: step.odd_even,
+            miss_distance: miss_distance_in_cores(self.wake.options(), self.wake.instant()),
+            not_converged: failed,
+        })
+    }
+
+    /// Blades at their azimuths, and their near wakes.
+    fn place(&mut self, rotor: &Rotor, blades: &[BladeInstant], hub: &WakeHub) -> Result<(), WakeError> {
+        self.blades.clear();
+        self.blades.extend_from_slice(blades);
+        self.states.clear();
+        self.near_wakes.clear();
+        for blade in blades {
+            let (flap, lead) = rotor.equivalent_angles(&blade.modal);
+            let state = BladeState { psi: blade.psi, flap, lead };
+            self.near_wakes.push(near_wake_matrix(self.wake.options(), hub, &state)?);
+            self.states.push(state);
+        }
+        Ok(())
+    }
+
+    fn renew_far(&mut self) {
+        let far = std::mem::replace(&mut self.lambda_far, self.wake.inflow_far());
+        self.before = Some(far);
+    }
+
+    /// Far inflow `steps` ahead, linear in azimuth from its last two values.
+    fn far_ahead(&mut self, steps: f64) {
+        self.far_held.copy_from_slice(&self.lambda_far);
+        if let (true, Some(before)) = (self.options.extrapolate, &self.before) {
+            for (held, old) in self.far_held.iter_mut().zip(before) {
+                *held += steps * (*held - old);
+            }
+        }
+    }
+
+    /// Circulation and total inflow of every blade; `ahead`: with the far inflow carried on to the present azimuth.
+    fn solve(&mut self, at: &Place, ahead: bool) -> Result<usize, WakeError> {
+        self.far_ahead(if ahead { 1.0 } else { 0.0 });
+        let n = self.wake.options().n_stations;
+        let mut failed = 0;
+        for (b, (blade, near)) in self.blades.iter().zip(&self.near_wakes).enumerate() {
+            let span = b * n..(b + 1) * n;
+            let far = &self.far_held[span.clone()];
+            let solution = at.solved(blade, far, near, &self.circulation[span.clone()])?;
+            failed += usize::from(!solution.converged);
+            self.circulation[span.clone()].copy_from_slice(&solution.gamma);
+            self.inflow[span].copy_from_slice(&solution.inflow);
+        }
+        Ok(failed)
+    }
+
+    /// Total inflow half a step ahead; circulation of the wake stays that of the present.
+    fn hold_extrapolated(&mut self, at: &Place) -> Result<(), WakeError> {
+        self.far_ahead(0.5);
+        let n = self.wake.options().n_stations;
+        for (b, (blade, near)) in self.blades.iter().zip(&self.near_wakes).enumerate() {
+            let span = b * n..(b + 1) * n;
+            let far = &self.far_held[span.clone()];
+            let solution = at.solved(blade, far, near, &self.circulation[span.clone()])?;
+            self.inflow[span].copy_from_slice(&solution.inflow);
+        }
+        Ok(())
+    }
+}
