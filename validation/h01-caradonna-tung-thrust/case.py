@@ -1,0 +1,49 @@
+"""Thrust of the rotor of Caradonna and Tung."""
+
+from settings import HOVER_WAKES, hover
+
+from wakeflight.plotting import style
+from wakeflight.validate import Check, Outcome
+
+
+def run(case):
+    table = case.table("thrust.csv")
+    rotor = case.path("rotors/caradonna-tung.toml")
+    checks, found = [], {}
+    for name in HOVER_WAKES:
+        ours = [
+            hover(rotor, name, collective=f"{theta} deg", rpm=rpm).ct
+            for theta, rpm in zip(table["theta_deg"], table["rpm"])
+        ]
+        found[name] = ours
+        default = name.startswith("default")
+        for theta, mach, ct, measured in zip(table["theta_deg"], table["Mtip"], ours, table["CT"]):
+            text = f"C_T at {theta:g} deg, tip Mach number {mach:g}"
+            checks.append(Check(text, ct, measured, 0.07, kind="relative", gate=default, note="" if default else name))
+    return Outcome(checks, draw(table, found))
+
+
+@style.styled
+def draw(table, found):
+    figure = style.blank(3.2)
+    axes = figure.subplots()
+    axes.plot(table["Mtip"], table["CT"], "ko", label="measured")
+    for (name, ours), color in zip(found.items(), style.COLORS):
+        for theta in (5, 8):
+            rows = table["theta_deg"] == theta
+            axes.plot(
+                table["Mtip"][rows],
+                [c for c, r in zip(ours, rows) if r],
+                "o-",
+                mfc="none",
+                color=color,
+                label=name if theta == 8 else None,
+            )
+    for theta in (5, 8):
+        rows = table["theta_deg"] == theta
+        axes.annotate(f"{theta}°", (table["Mtip"][rows][-1] + 0.01, table["CT"][rows][-1]), va="center")
+    axes.set_ylim(0, None)
+    axes.set_xlabel("tip Mach number")
+    axes.set_ylabel("thrust coefficient C_T")
+    axes.legend(loc="center left", bbox_to_anchor=(0.0, 0.55))
+    return figure
