@@ -29,12 +29,12 @@ def inferred_inflow(rotor, rate, inflow="time-marching"):
     """
     loaded = wf.load_rotor(rotor)
     v_h = np.sqrt(THRUST / 2)  # over the tip speed
-    tip_speed = float(loaded.omega) * float(loaded.radius)
+    tip_speed = loaded.omega * loaded.radius
     stand = wf.tunnel(rotor, inflow=inflow, ct=THRUST, climb=f"{-rate * v_h * tip_speed} m/s")
     # aerodynamic blade from the root on: integrals of r^2 and r over the blade instead of 1/3 and 1/2
-    cut = float(loaded.blade.root_cutout) / float(loaded.radius)
+    cut = loaded.data["blade"]["root_cutout"] / loaded.radius
     squares, radii = (1 - cut**3) / 3, (1 - cut**2) / 2
-    slope, solidity = 5.90, 3 * 0.0479 / (np.pi * 0.9144)
+    slope, solidity = 5.90, loaded.solidity
 
     def ratio(ct):
         through = (stand.theta_0 * squares - 2 * ct / (slope * solidity)) / radii

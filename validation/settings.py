@@ -4,19 +4,20 @@ The default of a kind is what `wf.tunnel` takes by itself for the name of an inf
 shown beside it, never instead of it.
 """
 
+import wakeflight as wf
 from wakeflight.tunnel import configured
 
-import wakeflight as wf
+DEFAULT = "default: one tip vortex of the equivalent strength"
 
 HOVER = {"speed": "0 m/s", "shaft_angle": "0 deg", "climb": "0 m/s"}
 
 HOVER_WAKES = {
-    "default: one tip vortex of the equivalent strength": {},
+    DEFAULT: {},
     "tip vortex of the largest circulation, inboard sheet": {"tip_strength": "max", "inboard_wake": "sheet"},
     "tip vortex of the mean outboard circulation": {"tip_strength": "mean"},
 }
 
 
-def hover(rotor, wake="default: one tip vortex of the equivalent strength", **arguments):
+def hover(rotor, wake=DEFAULT, **arguments):
     """Rotor in hover with a relaxation wake of one of `HOVER_WAKES`."""
     return wf.tunnel(rotor, inflow=configured(rotor, "relaxation", HOVER_WAKES[wake], HOVER), **arguments)
