@@ -3,10 +3,13 @@
 import numpy as np
 from descent import inferred_inflow
 
+import wakeflight as wf
 from wakeflight.plotting import style
 from wakeflight.validate import Check, Outcome
 
 RATES = (0.0, 0.4, 0.8, 1.2, 1.6)
+VARIED = 1.2
+VARIATIONS = {"12 turns instead of 8": {"turns": 12}, "largest circulation": {"turns": 8, "tip_strength": "max"}}
 
 
 def run(case):
@@ -19,6 +22,10 @@ def run(case):
         Check(f"v_i/v_h at V_d/v_h = {rate:g}", value, np.interp(rate, x, y), 0.25, gate=rate <= 1.2)
         for rate, value in zip(RATES, ours)
     ]
+    for name, options in VARIATIONS.items():
+        value = inferred_inflow(rotor, VARIED, wf.TimeMarchingWake(**options)).ratio
+        text = f"v_i/v_h at V_d/v_h = {VARIED:g}"
+        checks.append(Check(text, value, np.interp(VARIED, x, y), gate=False, note=name))
     return Outcome(checks, draw(x, y, found))
 
 
