@@ -15,6 +15,10 @@ from . import _core
 from .exchange import MarchingExchange
 from .model import CompiledRotor
 
+DIVERGING = 2.0
+"""Growth of the change of inflow over its least, at which a smaller share of each change is taken."""
+LEAST_SHARE = 0.05
+"""Least share of a change of inflow that is taken."""
 FIRST_TURN_TOLERANCE = 1e-3
 """Change of the first turn's geometry over R in a sweep below which it counts as settled."""
 
@@ -64,13 +68,18 @@ class WakeInTrim:
             self._solve_circulation(y, stick, q, q_dot)
         thrust = self._thrust()
         self.converged = False
+        share, least = options.inflow_relaxation, np.inf
         for iteration in range(max_iterations):
             self.relaxation.set_state(*hub, flap, lead, self.circulation)
             norms = self.relaxation.sweep(options.sweeps)
             far = self.relaxation.inflow_far()
             change = far - self.lambda_far
             rms = float(np.sqrt(np.mean((change**2) @ model.area_weights)))
-            self.lambda_far = self.lambda_far + options.inflow_relaxation * change
+            # a wake at low thrust stays in the disk, and inflow and circulation overshoot: take less of each change
+            if rms > DIVERGING * least:
+                share, least = max(0.5 * share, LEAST_SHARE), rms
+            least = min(least, rms)
+            self.lambda_far = self.lambda_far + share * change
             self._solve_circulation(y, stick, q, q_dot)
             before, thrust = thrust, self._thrust()
             thrust_change = abs(thrust - before) / max(abs(thrust), 1e-6 * model.tip_speed * model.rotor["radius"] ** 2)

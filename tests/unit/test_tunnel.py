@@ -186,3 +186,10 @@ def test_a_bad_rotor_file_names_file_and_key(tmp_path, old, new, named):
         wf.load_rotor(path)
     assert str(path) in str(error.value)
     assert "\n" not in str(error.value)
+
+
+def test_a_hovering_wake_settles_at_little_thrust():
+    # little inflow keeps the wake in the disk, where a full share of each change of inflow overshoots
+    stand = wf.tunnel("uh60a", collective="10.5 deg", blades="rigid", flapping="zero", inflow="relaxation")
+    assert stand.settled
+    assert 0.0 < stand.ct < 0.003
