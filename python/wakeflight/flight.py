@@ -236,6 +236,9 @@ def fly(
         revolution = (recorder.n_recorded - 1) / model.steps_per_revolution
         failure = f"flight of {maneuver.name} stopped in revolution {revolution:.2f}: {reason}"
 
+    for text in recorder.validity():
+        warnings.append(text)
+        progress(f"warning: {text}")
     attributes = {
         "seconds_trim": start.seconds,
         "seconds_convergence": phase.seconds,

@@ -115,11 +115,11 @@ class FixedIntegrator:
     """Radau IIA of order five [hairer1996], one step to wherever it is asked to go.
 
     L-stable, so that no mode of a blade limits the step. Exact derivatives once per step, blades eliminated before the
-    body; the stages are solved until what Newton's iteration still lacks is a tenth of IDA's tolerances. A corner of the
-    stick history ends a step.
+    body; the stages are solved until what Newton's iteration still lacks is 0.3 of IDA's tolerances: 0.1 costs a fifth more
+    iterations and moves nothing, 1 doubles the error of the body rates. A corner of the stick history ends a step.
     """
 
-    NEWTON_SHARE = 0.1
+    NEWTON_SHARE = 0.3
 
     def __init__(self, model: Model, rtol: float = 1e-5, atol_scale: float = 1.0, parts: int = 1):
         self.model, self.rtol, self.parts = model, rtol, parts

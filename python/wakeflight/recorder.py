@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from .trim import Trim
 
 SNAPSHOTS_PER_REVOLUTION = 4
+LARGE_DISPLACEMENT = 0.25
+"""Motion of a wake node in a step over R from which a run says so: half of what the wake refuses."""
 STATION_FIELDS = ("inflow", "circulation", "cl", "cl_m2", "alpha", "mach")
 
 
@@ -46,6 +48,9 @@ class Recorder:
                 "odd_even",
                 "max_displacement",
                 "stabilator",
+                "vortex_blade_distance",
+                "energy",
+                "load_power",
             )
         }
         self.blade_angles = {name: np.empty((n, blades)) for name in ("flap", "lead")}
@@ -85,7 +90,9 @@ class Recorder:
         wake = getattr(self.source, "wake", None)
         monitors = getattr(wake, "monitors", {})
         self.scalars["odd_even"][step] = monitors.get("odd_even", 0.0)
-        self.scalars["max_displacement"][step] = monitors.get("max_displacement", 0.0)
+        self.scalars["max_displacement"][step] = monitors.get("max_displacement", 0.0) * self.model.rotor["radius"]
+        self.scalars["vortex_blade_distance"][step] = monitors.get("vortex_blade_distance", np.nan)
+        self.scalars["energy"][step], self.scalars["load_power"][step] = out["energy"], out["load_power"]
         if wake is not None and step % (self.model.steps_per_revolution // SNAPSHOTS_PER_REVOLUTION) == 0:
             self.snapshots.append(position_of(wake, step))
             self.snapshot_circulation.append(wake.marker_circulation(step))
@@ -123,7 +130,13 @@ class Recorder:
         for kind in ("force", "moment"):
             arrays |= dict(zip((f"{kind}_x", f"{kind}_y", f"{kind}_z"), self.loads[kind][:n].T, strict=True))
         arrays |= {name: values[:n] for name, values in self.blade.items()}
-        arrays |= {name: values[:n] for name, values in self.scalars.items()}
+        arrays |= {name: values[:n] for name, values in self.scalars.items() if name != "load_power"}
+        if not np.any(np.isfinite(arrays["vortex_blade_distance"])):
+            del arrays["vortex_blade_distance"]
+        arrays["energy_balance"] = self.energy_balance()
+        alpha, mach = self.blade["alpha"][:n], self.blade["mach"][:n]
+        arrays |= {"alpha_min": alpha.min(axis=(1, 2)), "alpha_max": alpha.max(axis=(1, 2))}
+        arrays["mach_max"] = mach.max(axis=(1, 2))
         arrays |= {name: values[:n] for name, values in self.blade_angles.items()}
         if not isinstance(model.inflow, DynamicInflow):
             arrays |= self._wake_arrays(phase)
@@ -139,6 +152,39 @@ class Recorder:
                 "failure": failure or "",
             },
         )
+
+    def energy_balance(self) -> np.ndarray:
+        """Change of the airframe's kinetic and potential energy less the work of all loads on it but gravity (time,) [J].
+
+        The work is the trapezoidal sum of F.v + M.omega over the coupling steps: what the loads the run reports did. It
+        vanishes as the step does; a load on the wrong point, a wrong sign or a wrong inertia leaves it growing.
+        """
+        n = self.n_recorded
+        power, time, energy = self.scalars["load_power"][:n], self.time[:n], self.scalars["energy"][:n]
+        work = np.concatenate([[0.0], np.cumsum(0.5 * (power[1:] + power[:-1]) * np.diff(time))])
+        return energy - energy[0] - work
+
+    def validity(self) -> list[str]:
+        """Where the run left the range its models hold for, once for each."""
+        n, model = self.n_recorded, self.model
+        found = []
+        tables = model.data["rotor"]["airfoil"]
+        limit = min(tables[name]["y"][-1] for name in ("cl", "cd", "cm"))
+        mach = self.blade["mach"][:n].max(axis=(1, 2))
+        if mach.max() > limit:
+            first = self.time[:n][mach > limit][0]
+            found.append(
+                f"Mach number up to {mach.max():.2f}, beyond the {limit:g} of the section tables (held there), "
+                f"from t = {first:.2f} s"
+            )
+        step = self.scalars["max_displacement"][:n] / model.rotor["radius"]
+        if step.max() > LARGE_DISPLACEMENT:
+            first = self.time[:n][step > LARGE_DISPLACEMENT][0]
+            found.append(
+                f"wake nodes moved up to {step.max():.2f} R in a step, more than {LARGE_DISPLACEMENT:g} R: the azimuth step is "
+                f"too coarse for this wake, from t = {first:.2f} s"
+            )
+        return found
 
     def _modal(self, y: np.ndarray) -> np.ndarray:
         """Modal coordinates (time, blade, mode) as fractions of the tip deflection: angle of the tip in the mode [rad]."""

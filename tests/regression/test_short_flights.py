@@ -19,7 +19,7 @@ NAMES = ("u", "w", "p", "q", "pitch", "roll", "beta_1c", "beta_1s", "ct", "force
 
 def sampled(start, inflow):
     # the fixed step: IDA chooses its steps by error estimates, and the last bit of a residual moves its answer by its tolerance
-    data = wf.fly(start, wf.arrested_descent(), inflow=inflow, revolutions=3, integrator="fixed").data
+    data = wf.fly(start, wf.arrested_descent(), inflow=inflow, revolutions=3, integrator="fixed", rtol=1e-7).data
     values = {name: data[name].values[::36].tolist() for name in NAMES}
     values["circulation"] = data["circulation"].values[-1, 0].tolist()
     if "wake" in data:

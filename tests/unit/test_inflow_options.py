@@ -8,7 +8,7 @@ import pytest
 
 from wakeflight.aircraft import load_aircraft
 from wakeflight.errors import InputError
-from wakeflight.inflow import DynamicInflow, RelaxationWake, TimeMarchingWake, inflow_model, trim_model
+from wakeflight.inflow import DynamicInflow, RelaxationWake, TimeMarchingWake, inflow_model, like, trim_model
 from wakeflight.references import known_keys
 
 KEYS = (
@@ -105,3 +105,32 @@ def test_a_marching_wake_is_trimmed_with_a_relaxation_wake_of_its_options():
 def test_every_model_has_references(model):
     assert model.references
     assert set(model.references) <= known_keys()
+
+
+def test_a_wake_of_the_other_kind_takes_the_common_options_only():
+    # both kinds have an update interval, and it means a revolution in one and every step in the other
+    relaxed = RelaxationWake(turns=3.0, core_radius=0.03)
+    marching = like(TimeMarchingWake, relaxed)
+    assert (marching.turns, marching.core_radius) == (3.0, 0.03)
+    assert marching.update_interval is None
+
+
+@pytest.mark.parametrize(("value", "steps"), [("360 deg", 36), ("90 deg", 9), ("10 deg", 1)])
+def test_update_intervals_are_whole_steps(uh60a, value, steps):
+    for kind in (RelaxationWake, TimeMarchingWake):
+        assert kind(update_interval=value).update_steps(uh60a) == steps
+    assert TimeMarchingWake().update_steps(uh60a) == 1
+
+
+@pytest.mark.parametrize(
+    ("options", "named"),
+    [
+        ({"update_interval": "15 deg"}, "update_interval = '15 deg': must be a whole number of azimuth steps"),
+        ({"update_interval": "0 deg"}, "update_interval"),
+        ({"recorrect": 4}, "recorrect = 4"),
+        ({"extrapolate": 1}, "extrapolate"),
+    ],
+)
+def test_options_of_the_exchange_are_checked(uh60a, options, named):
+    with pytest.raises(InputError, match=named):
+        TimeMarchingWake(**options).core_options(uh60a)

@@ -155,7 +155,7 @@ impl PyAircraft {
         inputs: &PyInputs,
         mut out: PyReadwriteArray1<f64>,
     ) -> PyResult<()> {
-        self.inner.residual(t, y.as_slice()?, y_dot.as_slice()?, &inputs.0, out.as_slice_mut()?);
+        self.inner.residual_of_four(t, y.as_slice()?, y_dot.as_slice()?, &inputs.0, out.as_slice_mut()?);
         Ok(())
     }
 
@@ -404,6 +404,8 @@ impl PyAircraft {
         d.set_item("beta_1c", o.beta_1c)?;
         d.set_item("beta_1s", o.beta_1s)?;
         d.set_item("power", o.power)?;
+        d.set_item("energy", o.energy)?;
+        d.set_item("load_power", o.load_power)?;
         d.set_item("azimuth", o.azimuth)?;
         let fields = [
             ("inflow", o.inflow),

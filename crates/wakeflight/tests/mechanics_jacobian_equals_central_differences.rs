@@ -103,3 +103,15 @@ fn residual_is_linear_in_the_rates_of_the_state() {
         }
     }
 }
+
+/// Lanes of a vector register change no bit of any blade.
+#[test]
+fn the_residual_of_four_blades_at_once_has_the_same_bits() {
+    for (aircraft, inputs, name) in cases(false) {
+        let (y, y_dot) = random_state(&aircraft, &mut Random::new(11));
+        let one_by_one = residual(&aircraft, 0.4, &y, &y_dot, &inputs);
+        let mut at_once = vec![f64::NAN; y.len()];
+        aircraft.residual_of_four(0.4, &y, &y_dot, &inputs, &mut at_once);
+        assert_eq!(one_by_one, at_once, "{name}");
+    }
+}

@@ -2,7 +2,8 @@
 
 use super::model::{Aircraft, Inputs};
 use super::residual::RotorLoads;
-use crate::numerics::frames::Vec3;
+use super::state::{Layout, body_vector};
+use crate::numerics::frames::{Vec3, rot_ib};
 
 /// Quantities of one instant, SI and radians.
 #[derive(Clone, Debug, Default)]
@@ -23,6 +24,10 @@ pub struct Outputs {
     pub beta_1s: f64,
     /// Main rotor, tail rotor, accessories [W].
     pub power: [f64; 3],
+    /// Kinetic and potential energy of the airframe without blades, zero height at the start [J].
+    pub energy: f64,
+    /// Power of all loads on the airframe but gravity, F.v + M.omega [W].
+    pub load_power: f64,
     /// Azimuth of every blade, 0 to 2 pi [rad].
     pub azimuth: Vec<f64>,
     /// Inflow (n_blades x n_stations), positive down.
@@ -48,7 +53,12 @@ impl Aircraft {
         let rotor = RotorLoads::sum(&blades);
         let [beta_1c, beta_1s] = self.flap_multiblade(t, y);
         let loads = self.airframe_loads(t, y, inputs, &rotor, beta_1c);
+        let (velocity, rates) = (body_vector(y, Layout::VELOCITY), body_vector(y, Layout::RATES));
+        let mass = &self.airframe.mass;
+        let below = rot_ib([y[6], y[7], y[8], y[9]]) * Vec3::cst(mass.cg);
         let mut o = Outputs {
+            energy: mass.kinetic_energy(velocity, rates) - mass.mass * self.gravity * (y[12] + below.z),
+            load_power: loads.force.dot(velocity) + loads.moment.dot(rates),
             force: Vec3::array(loads.force),
             moment: Vec3::array(loads.moment),
             hub_force: Vec3::array(rotor.force),

@@ -104,6 +104,12 @@ impl AirframeMass {
         let spin = times(&self.inertia_cg, rates_dot) + rates_b.cross(times(&self.inertia_cg, rates_b));
         (force, cg.cross(force) - spin)
     }
+
+    /// Kinetic energy [J], 1/2 m |v + omega x c|^2 + 1/2 omega . I omega.
+    pub fn kinetic_energy(&self, velocity_b: Vec3<f64, Body>, rates_b: Vec3<f64, Body>) -> f64 {
+        let v = velocity_b + rates_b.cross(Vec3::cst(self.cg));
+        0.5 * (self.mass * v.dot(v) + rates_b.dot(times(&self.inertia_cg, rates_b)))
+    }
 }
 
 #[cfg(test)]

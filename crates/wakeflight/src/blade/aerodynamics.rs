@@ -71,11 +71,8 @@ pub fn section_air<S: Real>(
     let quarter_n = wind_n - spin_n * station.quarter;
     let three_quarter_n = wind_n - spin_n * station.three_quarter;
 
-    let alpha = three_quarter_n.atan2(-wind_c);
-    // the small constant keeps the derivative finite where a section stands still in the air
-    let speed = (wind_c * wind_c + quarter_n * quarter_n + 1e-12).sqrt();
-    let mach = speed / air.speed_of_sound;
-    let (cl, cd, cm) = airfoil.coefficients(alpha, mach);
+    let SectionFlow { alpha, speed, mach, cl, cd, cm } =
+        section_flow(airfoil, air, wind_c, quarter_n, three_quarter_n);
 
     let half_rho_c = 0.5 * air.density * station.chord;
     // lift is perpendicular to the wind, drag along it
@@ -93,4 +90,80 @@ pub fn section_air<S: Real>(
 
     let circulation = cl * speed * (0.5 * station.chord);
     SectionAir { alpha, mach, speed, cl, cd, cm, circulation, force, moment }
+}
+
+/// Angle of attack, speed and coefficients of a section.
+struct SectionFlow<S> {
+    alpha: S,
+    speed: S,
+    mach: S,
+    cl: S,
+    cd: S,
+    cm: S,
+}
+
+/// Flow from the wind along the chord and normal to it at the quarter and the three-quarter chord [m/s].
+#[inline(always)]
+fn section_flow<S: Real>(
+    airfoil: &Airfoil,
+    air: &Air,
+    wind_c: S,
+    quarter_n: S,
+    three_quarter_n: S,
+) -> SectionFlow<S> {
+    let alpha = three_quarter_n.atan2(-wind_c);
+    // the small constant keeps the derivative finite where a section stands still in the air
+    let speed = (wind_c * wind_c + quarter_n * quarter_n + 1e-12).sqrt();
+    let mach = speed / air.speed_of_sound;
+    let (cl, cd, cm) = airfoil.coefficients(alpha, mach);
+    SectionFlow { alpha, speed, mach, cl, cd, cm }
+}
+
+/// Wind of a section without inflow and what inflow takes off it: all that its circulation needs of the blade's motion.
+#[derive(Clone, Copy, Debug)]
+pub struct SectionWind {
+    /// Along the chord [m/s].
+    wind_c: f64,
+    /// Normal to the chord at the quarter chord [m/s].
+    quarter_n: f64,
+    /// Normal to the chord at the three-quarter chord [m/s].
+    three_quarter_n: f64,
+    /// Components of the shaft's direction along c and n, times the tip speed [m/s].
+    up: [f64; 2],
+    chord: f64,
+}
+
+impl SectionWind {
+    /// From the wind without inflow, the section's angular velocity and the direction of the shaft.
+    pub fn new(
+        station: &StationGeometry,
+        motion: &SectionMotion<f64>,
+        wind: Vec3<f64, BladeAxes>,
+        omega: Vec3<f64, BladeAxes>,
+        up: Vec3<f64, BladeAxes>,
+        tip_speed: f64,
+    ) -> Self {
+        let wind_n = wind.dot(motion.n);
+        let spin_n = omega.cross(motion.c).dot(motion.n);
+        Self {
+            wind_c: wind.dot(motion.c),
+            quarter_n: wind_n - spin_n * station.quarter,
+            three_quarter_n: wind_n - spin_n * station.three_quarter,
+            up: [up.dot(motion.c) * tip_speed, up.dot(motion.n) * tip_speed],
+            chord: station.chord,
+        }
+    }
+
+    /// Bound circulation [m2/s] at inflow `lambda`.
+    pub fn circulation<S: Real>(&self, airfoil: &Airfoil, air: &Air, lambda: S) -> S {
+        let (along, normal) = (lambda * -self.up[0], lambda * -self.up[1]);
+        let flow = section_flow(
+            airfoil,
+            air,
+            along + self.wind_c,
+            normal + self.quarter_n,
+            normal + self.three_quarter_n,
+        );
+        flow.cl * flow.speed * (0.5 * self.chord)
+    }
 }

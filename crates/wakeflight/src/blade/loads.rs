@@ -5,7 +5,7 @@
 //! hub are six more test motions of the same sums: hinge, damper and pitch-link loads act inside and do not appear.
 
 use super::MAX_MODES;
-use super::aerodynamics::{Air, SectionAir, section_air};
+use super::aerodynamics::{Air, SectionAir, SectionWind, section_air};
 use super::kinematics::{BladeAxes, ModalMotion, PitchMotion, SectionMotion, combine};
 use super::model::{AeroStation, Blade, StructuralPoint};
 use super::strain::add_strain_gradient;
@@ -28,6 +28,7 @@ pub struct HubMotion<S> {
 
 impl HubMotion<f64> {
     /// The same motion without derivatives.
+    #[inline(always)]
     pub fn constant<S: Real>(&self) -> HubMotion<S> {
         HubMotion {
             velocity: Vec3::cst(self.velocity.array()),
@@ -192,27 +193,51 @@ impl Blade {
         control: &PitchMotion<S>,
         inflow: &BladeInflow<S>,
     ) -> BladeLoads<S> {
-        let carrier = Carrier::new(hub, psi, self.precone, environment.rotor_speed);
-        let mut work = [S::zero(); MAX_MODES];
-        let inertial = self.add_inertia(&carrier, modal, control, &mut work);
-        self.add_strain(modal, control, &mut work);
-        let mut aero = Sum::new();
+        let mut loads = self.structure_loads(environment.rotor_speed, hub, psi, modal, control);
         if !matches!(inflow, BladeInflow::Vacuum) {
-            for j in 0..self.stations.len() {
-                let (motion, air) = self.station_air(environment, &carrier, modal, control, inflow, j);
-                self.project(&self.stations[j].shapes, &motion, air.force, air.moment, &mut work);
-                aero.add(motion.position, air.force, air.moment);
-            }
+            self.add_air_loads(environment, hub, psi, modal, control, inflow, &mut loads);
         }
-        self.add_root_loads(modal, &mut work);
-        let (aero_force, aero_moment) = (carrier.to_hub(aero.force), carrier.to_hub(aero.moment));
-        BladeLoads {
-            modal: work,
-            force: carrier.to_hub(inertial.force) + aero_force,
-            moment: carrier.to_hub(inertial.moment) + aero_moment,
-            aero_force,
-            aero_moment,
+        loads
+    }
+
+    /// Inertia, gravity, strain, damping and the root spring: everything but the air. No branch looks at a value.
+    #[inline(always)]
+    pub fn structure_loads<S: Real>(
+        &self,
+        rotor_speed: f64,
+        hub: &HubMotion<S>,
+        psi: S,
+        modal: &ModalMotion<S>,
+        control: &PitchMotion<S>,
+    ) -> BladeLoads<S> {
+        let mut loads = self.inertia(rotor_speed, hub, psi, modal, control);
+        self.add_strain(modal, control, &mut loads.modal);
+        self.add_root_loads(modal, &mut loads.modal);
+        loads
+    }
+
+    /// Adds what the air does.
+    #[inline(always)]
+    pub fn add_air_loads<S: Real>(
+        &self,
+        environment: &BladeEnvironment,
+        hub: &HubMotion<S>,
+        psi: S,
+        modal: &ModalMotion<S>,
+        control: &PitchMotion<S>,
+        inflow: &BladeInflow<S>,
+        loads: &mut BladeLoads<S>,
+    ) {
+        let carrier = Carrier::new(hub, psi, self.precone, environment.rotor_speed);
+        let mut aero = Sum::new();
+        for j in 0..self.stations.len() {
+            let (motion, air) = self.station_air(environment, &carrier, modal, control, inflow, j);
+            self.project(&self.stations[j].shapes, &motion, air.force, air.moment, &mut loads.modal);
+            aero.add(motion.position, air.force, air.moment);
         }
+        (loads.aero_force, loads.aero_moment) = (carrier.to_hub(aero.force), carrier.to_hub(aero.moment));
+        loads.force += loads.aero_force;
+        loads.moment += loads.aero_moment;
     }
 
     /// Inertia and gravity alone: all that depends on accelerations.
@@ -296,6 +321,27 @@ impl Blade {
             let lambda = self.inflow_at(inflow, &carrier, &motion, j);
             each(j, &air, lambda);
         }
+    }
+
+    /// Wind of every station without inflow, into `winds`.
+    pub fn section_winds(
+        &self,
+        rotor_speed: f64,
+        hub: &HubMotion<f64>,
+        psi: f64,
+        modal: &ModalMotion<f64>,
+        control: &PitchMotion<f64>,
+        winds: &mut Vec<SectionWind>,
+    ) {
+        let carrier = Carrier::new(hub, psi, self.precone, rotor_speed);
+        winds.clear();
+        winds.extend(self.stations.iter().map(|station| {
+            let pitch = PitchMotion { theta: control.theta + station.twist, ..*control };
+            let m = station.shapes.motion(self.n_modes, modal, &pitch);
+            let wind = -(carrier.velocity + carrier.omega.cross(m.position) + m.velocity);
+            let omega = carrier.omega + m.omega;
+            SectionWind::new(&station.geometry, &m, wind, omega, carrier.up, rotor_speed * self.radius)
+        }));
     }
 
     #[inline(always)]

@@ -139,7 +139,7 @@ impl FixedStep {
         self.factored = None;
         // F is linear in y_dot and the matrix is that of this state: one correction is exact
         let f = &mut self.f[0];
-        aircraft.residual(self.t, &self.y, &self.y_dot, inputs, f);
+        aircraft.residual_of_four(self.t, &self.y, &self.y_dot, inputs, f);
         self.counters.residual_evaluations += 1;
         if self.mass.mass(&self.slopes).is_err() {
             return Err(self.failure(aircraft, inputs, "the mass matrix is singular or not finite"));
@@ -269,7 +269,7 @@ impl FixedStep {
                 self.rates[s][i] = (0..STAGES).map(|j| m.inverse[s][j] * self.z[j][i]).sum::<f64>() / h;
             }
             let t = self.t + m.c[s] * h;
-            aircraft.residual(t, &self.stage, &self.rates[s], inputs, &mut self.f[s]);
+            aircraft.residual_of_four(t, &self.stage, &self.rates[s], inputs, &mut self.f[s]);
         }
         self.counters.residual_evaluations += STAGES as u64;
         let w = &m.t_inverse;
@@ -318,7 +318,7 @@ impl FixedStep {
 
     fn failure(&self, aircraft: &Aircraft, inputs: &Inputs, reason: &'static str) -> StepFailure {
         let mut f = vec![0.0; self.y.len()];
-        aircraft.residual(self.t, &self.y, &self.y_dot, inputs, &mut f);
+        aircraft.residual_of_four(self.t, &self.y, &self.y_dot, inputs, &mut f);
         // a state that is not a number makes every equation one: it is the one to name
         let worst = self.y.iter().position(|v| !v.is_finite()).unwrap_or_else(|| {
             let size = |v: f64| if v.is_nan() { f64::INFINITY } else { v.abs() };
@@ -344,7 +344,7 @@ impl Aircraft {
         let mut mass = Factor::new(&slopes);
         mass.mass(&slopes)?;
         let mut rate = vec![0.0; y.len()];
-        self.residual(t, y, &vec![0.0; y.len()], inputs, &mut rate);
+        self.residual_of_four(t, y, &vec![0.0; y.len()], inputs, &mut rate);
         mass.solve(&slopes, &mut rate);
         rate.iter_mut().for_each(|r| *r = -*r);
         Ok(rate)

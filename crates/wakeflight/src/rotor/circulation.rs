@@ -3,10 +3,10 @@
 //! Held: the far inflow, the motion of blade and hub. Solved: Gamma_i = Gamma_section_i(lambda_far_i + sum_j N_ij Gamma_j).
 
 use super::hub::Rotor;
-use crate::blade::aerodynamics::Air;
+use crate::blade::aerodynamics::{Air, SectionWind};
 use crate::blade::kinematics::{ModalMotion, PitchMotion};
-use crate::blade::loads::{BladeInflow, HubMotion};
-use crate::numerics::scalar::{Dual, Real};
+use crate::blade::loads::HubMotion;
+use crate::numerics::scalar::Dual;
 use crate::wake::{
     BladeState, CirculationSolution, HubMotion as WakeHub, WakeError, WakeOptions, near_wake_matrix,
     solve_circulation,
@@ -47,33 +47,28 @@ impl Rotor {
         circulation: &mut [f64],
         slope: &mut [f64],
     ) {
-        type D = Dual<1>;
-        // a station's circulation depends on its own inflow alone: one direction serves all
-        let inflow: Vec<D> = lambda.iter().map(|&l| D::variable(l, 0)).collect();
-        let constant = |m: [f64; crate::blade::MAX_MODES]| m.map(D::cst);
-        let modal = ModalMotion {
-            q: constant(blade.modal.q),
-            q_dot: constant(blade.modal.q_dot),
-            q_ddot: constant(blade.modal.q_ddot),
-        };
-        let c = &blade.control;
-        let control = PitchMotion {
-            theta: D::cst(c.theta),
-            theta_dot: D::cst(c.theta_dot),
-            theta_ddot: D::cst(c.theta_ddot),
-        };
-        self.blade_air(
-            air,
-            &hub.constant(),
-            blade.psi,
-            &modal,
-            &control,
-            &BladeInflow::Variable(&inflow),
-            |j, section, _| {
-                circulation[j] = section.circulation.re;
-                slope[j] = section.circulation.eps[0];
-            },
-        );
+        self.circulation_of(air, &self.section_winds(hub, blade), lambda, circulation, slope);
+    }
+
+    fn section_winds(&self, hub: &HubMotion<f64>, blade: &BladeInstant) -> Vec<SectionWind> {
+        let mut winds = Vec::with_capacity(self.blade.stations.len());
+        self.blade.section_winds(self.omega, hub, blade.psi, &blade.modal, &blade.control, &mut winds);
+        winds
+    }
+
+    fn circulation_of(
+        &self,
+        air: Air,
+        winds: &[SectionWind],
+        lambda: &[f64],
+        circulation: &mut [f64],
+        slope: &mut [f64],
+    ) {
+        for (j, wind) in winds.iter().enumerate() {
+            // a station's circulation depends on its own inflow alone
+            let gamma = wind.circulation(&self.airfoil, &air, Dual::<1>::variable(lambda[j], 0));
+            (circulation[j], slope[j]) = (gamma.re, gamma.eps[0]);
+        }
     }
 
     /// Circulation and total inflow of one blade for the held far inflow and the near-wake matrix (n, n).
@@ -90,12 +85,12 @@ impl Rotor {
         // slopes are kept between -3 c and 0 (per tip speed): beyond stall the sign would turn Newton away
         let floor: Vec<f64> =
             self.blade.stations.iter().map(|s| -3.0 * s.geometry.chord * self.tip_speed()).collect();
+        // the motion of the sections does not change while the circulation is sought
+        let winds = self.section_winds(hub, blade);
         solve_circulation(
             lambda_far,
             near_wake,
-            |lambda, circulation, slope| {
-                self.section_circulation(air, hub, blade, lambda, circulation, slope)
-            },
+            |lambda, circulation, slope| self.circulation_of(air, &winds, lambda, circulation, slope),
             start,
             &floor,
             1e-8 * self.omega * radius * radius,

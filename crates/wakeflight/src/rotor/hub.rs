@@ -10,8 +10,52 @@ use crate::blade::error::BladeError;
 use crate::blade::kinematics::{ModalMotion, PitchMotion, combine};
 use crate::blade::loads::{BladeEnvironment, BladeInflow, BladeLoads, HubMotion};
 use crate::blade::model::{Blade, Discretisation};
+use crate::numerics::four::{Four, FourTask, four_at_once};
 use crate::numerics::frames::{Body, Hub, Rotation, Vec3, rot_hb};
 use crate::numerics::scalar::Real;
+
+/// Loads of four blades but for air and damper.
+struct Structures<'a> {
+    rotor: &'a Rotor,
+    hub: &'a HubMotion<f64>,
+    blades: &'a [(f64, ModalMotion<f64>, PitchMotion<f64>); 4],
+}
+
+impl FourTask for Structures<'_> {
+    type Output = [BladeLoads<f64>; 4];
+    #[inline(always)]
+    fn run<S: Four>(self) -> Self::Output {
+        let (b, n) = (self.blades, self.rotor.blade.n_modes);
+        let zero = [S::zero(); MAX_MODES];
+        let mut modal = ModalMotion { q: zero, q_dot: zero, q_ddot: zero };
+        for i in 0..n {
+            modal.q[i] = S::of([b[0].1.q[i], b[1].1.q[i], b[2].1.q[i], b[3].1.q[i]]);
+            modal.q_dot[i] = S::of([b[0].1.q_dot[i], b[1].1.q_dot[i], b[2].1.q_dot[i], b[3].1.q_dot[i]]);
+            modal.q_ddot[i] = S::of([b[0].1.q_ddot[i], b[1].1.q_ddot[i], b[2].1.q_ddot[i], b[3].1.q_ddot[i]]);
+        }
+        let control = PitchMotion {
+            theta: S::of([b[0].2.theta, b[1].2.theta, b[2].2.theta, b[3].2.theta]),
+            theta_dot: S::of([b[0].2.theta_dot, b[1].2.theta_dot, b[2].2.theta_dot, b[3].2.theta_dot]),
+            theta_ddot: S::of([b[0].2.theta_ddot, b[1].2.theta_ddot, b[2].2.theta_ddot, b[3].2.theta_ddot]),
+        };
+        let psi = S::of([b[0].0, b[1].0, b[2].0, b[3].0]);
+        let four =
+            self.rotor.blade.structure_loads(self.rotor.omega, &self.hub.constant(), psi, &modal, &control);
+        let mut loads = [BladeLoads::zero(); 4];
+        for i in 0..n {
+            for (l, v) in loads.iter_mut().zip(four.modal[i].values()) {
+                l.modal[i] = v;
+            }
+        }
+        let (f, m) = (four.force, four.moment);
+        let parts = [f.x.values(), f.y.values(), f.z.values(), m.x.values(), m.y.values(), m.z.values()];
+        for (k, l) in loads.iter_mut().enumerate() {
+            l.force = Vec3::new(parts[0][k], parts[1][k], parts[2][k]);
+            l.moment = Vec3::new(parts[3][k], parts[4][k], parts[5][k]);
+        }
+        loads
+    }
+}
 
 /// Rotor of equal blades.
 #[derive(Clone, Debug)]
@@ -113,6 +157,37 @@ impl Rotor {
         let mut loads = self.blade.loads(&self.environment(air), hub, S::cst(psi), modal, control, inflow);
         self.add_damper(modal, control, &mut loads.modal);
         loads
+    }
+
+    /// Everything but the air and the damper, for four blades: (azimuth, modal motion, pitch) of each.
+    pub fn four_structures(
+        &self,
+        hub: &HubMotion<f64>,
+        blades: &[(f64, ModalMotion<f64>, PitchMotion<f64>); 4],
+    ) -> [BladeLoads<f64>; 4] {
+        four_at_once(Structures { rotor: self, hub, blades }).unwrap_or_else(|task| {
+            task.blades.map(|(psi, modal, control)| {
+                self.blade.structure_loads(self.omega, hub, psi, &modal, &control)
+            })
+        })
+    }
+
+    /// Adds air and damper to the structure's loads.
+    #[allow(clippy::too_many_arguments, reason = "the physical inputs of one blade")]
+    pub fn add_air_and_damper(
+        &self,
+        air: Air,
+        hub: &HubMotion<f64>,
+        psi: f64,
+        modal: &ModalMotion<f64>,
+        control: &PitchMotion<f64>,
+        inflow: &BladeInflow<f64>,
+        loads: &mut BladeLoads<f64>,
+    ) {
+        if !matches!(inflow, BladeInflow::Vacuum) {
+            self.blade.add_air_loads(&self.environment(air), hub, psi, modal, control, inflow, loads);
+        }
+        self.add_damper(modal, control, &mut loads.modal);
     }
 
     /// Inertia and gravity of a blade alone: all that depends on accelerations.
