@@ -1,0 +1,7 @@
+"""Tip-vortex centres of the HART II baseline."""
+
+from hart2 import BASELINE, vortices
+
+
+def run(case):
+    return vortices(case, BASELINE)
