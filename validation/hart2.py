@@ -87,9 +87,15 @@ def vortices(case, condition):
                             gate=gate, note=note))  # fmt: skip
         for side in ("advancing", "retreating"):
             z = error[table["side"] == side, 1]
-            checks.append(Check(f"mean height less measured, {side} side", z.mean(), 0.0, unit="R", gate=False, note=note))
-        checks.append(Check("rms of the height", np.sqrt(np.mean(error[:, 1] ** 2)), 0.0, unit="R", gate=False, note=note))
-        checks.append(Check("rms along the wind", np.sqrt(np.mean(error[:, 0] ** 2)), 0.0, unit="R", gate=False, note=note))
+            checks.append(
+                Check(f"mean height less measured, {side} side", z.mean(), 0.0, unit="R", gate=False, note=note)
+            )
+        checks.append(
+            Check("rms of the height", np.sqrt(np.mean(error[:, 1] ** 2)), 0.0, unit="R", gate=False, note=note)
+        )
+        checks.append(
+            Check("rms along the wind", np.sqrt(np.mean(error[:, 0] ** 2)), 0.0, unit="R", gate=False, note=note)
+        )
     return Outcome(checks, draw(table, found))
 
 

@@ -4,9 +4,8 @@ The default is what `wf.tunnel` takes by itself for the name of an inflow model;
 it, never instead of it.
 """
 
-from wakeflight.tunnel import configured
-
 import wakeflight as wf
+from wakeflight.tunnel import configured
 
 DEFAULT = "default: one tip vortex of the equivalent strength"
 SHEET = "tip vortex of the largest circulation, inboard sheet"
@@ -22,5 +21,7 @@ WAKES = {
 def wind(rotor, wake=DEFAULT, *, speed, shaft_angle, options=None, **arguments):
     """Rotor in a wind from the front with a relaxation wake of one of `WAKES`, or with dynamic inflow (wake=None)."""
     condition = {"speed": speed, "shaft_angle": shaft_angle, "climb": "0 m/s"}
-    inflow = "dynamic" if wake is None else configured(rotor, "relaxation", {**WAKES[wake], **(options or {})}, condition)
+    inflow = (
+        "dynamic" if wake is None else configured(rotor, "relaxation", {**WAKES[wake], **(options or {})}, condition)
+    )
     return wf.tunnel(rotor, inflow=inflow, speed=speed, shaft_angle=shaft_angle, **arguments)

@@ -62,8 +62,8 @@ def draw(mu, measured, uncertainty, found):
     for (name, pairs), color, line in zip(found.items(), style.COLORS, style.LINES):
         left.plot(mu, pairs[:, 1], line, color=color, label=name)
         right.plot(mu, pairs[:, 0], line, color=color)
-    left.set_ylabel("lateral flapping [deg], advancing side down")
-    right.set_ylabel("longitudinal flapping [deg], aft down")
+    left.set_ylabel("lateral flapping [deg]\nadvancing side down")
+    right.set_ylabel("longitudinal flapping [deg]\naft down")
     for axes in (left, right):
         axes.set_xlabel("advance ratio")
         axes.set_xlim(0, None)

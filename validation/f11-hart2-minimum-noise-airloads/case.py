@@ -71,7 +71,9 @@ def run(case):
         ]
         psi, value = measured["tip_flap_pctR"]
         flap = abs(harmonic(psi, periodic(psi, stand, ours["tip_flap_pctR"])) - harmonic(psi, value))
-        checks.append(Check("difference of the first harmonic of tip flap", flap, 0.0, 0.5, "% R", gate=gate, note=note))
+        checks.append(
+            Check("difference of the first harmonic of tip flap", flap, 0.0, 0.5, "% R", gate=gate, note=note)
+        )
         psi, value = measured["tip_twist_deg"]
         twist = periodic(psi, stand, ours["tip_twist_deg"])
         checks.append(Check("rms of elastic tip twist", np.sqrt(np.mean((twist - value) ** 2)), 0.0, 0.6, "deg",
