@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from . import _core
-from .aircraft import Aircraft
+from .aircraft import Aircraft, Rotor, load_rotor
 from .errors import InputError
 
 
@@ -18,12 +18,19 @@ from .errors import InputError
 class BladeModes:
     """Modes of a blade, ascending in frequency; shapes normalised to a largest tip deflection of one (m/m or rad)."""
 
-    frequencies: np.ndarray  # (n_modes,) [1/rev]
+    natural_frequencies: np.ndarray  # (n_modes,) [rad/s]
     shares: np.ndarray  # (n_modes, 3), kinetic energy in flap, lag, torsion
     radius: np.ndarray  # (n,) [m]
     shapes: dict[str, np.ndarray]  # "flap", "lead" [m], "twist" [rad]: (n_modes, n)
     omega: float  # [rad/s]
     reference_pitch: float  # [rad]
+
+    @property
+    def frequencies(self) -> np.ndarray:
+        """Frequencies (n_modes,) [1/rev]; refused for a rotor at rest, which has `natural_frequencies` only."""
+        if self.omega == 0.0:
+            raise InputError("rotor_speed = 0: no frequency per revolution; read natural_frequencies [rad/s]")
+        return self.natural_frequencies / self.omega
 
     @property
     def labels(self) -> list[str]:
@@ -53,33 +60,43 @@ class BladeModes:
 
 
 def blade_modes(
-    aircraft: Aircraft,
+    aircraft: Aircraft | Rotor,
     n_modes: int | None = None,
     n_elements: int | None = None,
     rotor_speed: float | None = None,
     reference_pitch: float | None = None,
 ) -> BladeModes:
-    """Modes of the aircraft's blade at a rotor speed [rad/s] (default nominal) and root pitch [rad] (default mid collective)."""
-    d = aircraft.discretisation
+    """Modes of the blade of an aircraft or of a rotor, hinged or clamped, at a rotor speed and root pitch.
+
+    rotor_speed [rad/s]: the nominal one by default, zero for a rotor at rest. reference_pitch [rad]: that of the aircraft's mid
+    collective, or of the rotor file, by default. n_elements: the aircraft's, and enough for the modes asked.
+    """
+    rotor = load_rotor(aircraft)
+    if not rotor.flexible:
+        raise InputError.of("flexible", "false", "must be true: a rigid blade has no modes", file=rotor.path)
+    d = rotor.discretisation
     n_modes = d.n_modes if n_modes is None else n_modes
-    n_elements = max(d.n_elements, -(-n_modes // 5)) if n_elements is None else n_elements
-    omega = float(aircraft.rotor.omega) if rotor_speed is None else rotor_speed
-    pitch = d.reference_pitch if reference_pitch is None else reference_pitch
-    if not isinstance(n_modes, int) or n_modes < 1:
+    if not isinstance(n_modes, int | np.integer) or isinstance(n_modes, bool) or n_modes < 1:
         raise InputError.of("n_modes", n_modes, "must be a whole number above 0")
-    blade = aircraft.core_data()["rotor"]["blade"]
+    n_modes = int(n_modes)
+    n_elements = max(d.n_elements, -(-n_modes // 5)) if n_elements is None else n_elements
+    if not isinstance(n_elements, int | np.integer) or isinstance(n_elements, bool) or not 1 <= n_elements <= 100:
+        raise InputError.of("n_elements", n_elements, "must be a whole number from 1 to 100")
+    omega = float(rotor.omega) if rotor_speed is None else float(rotor_speed)
+    if not 0.0 <= omega < np.inf:
+        raise InputError.of("rotor_speed", rotor_speed, "must be finite and not negative [rad/s]")
+    pitch = d.reference_pitch if reference_pitch is None else float(reference_pitch)
+    blade = rotor.data["blade"]
     try:
-        core = _core.BladeModes(json.dumps(blade), omega, pitch, n_elements, n_modes)
+        core = _core.BladeModes(json.dumps(blade), omega, pitch, int(n_elements), n_modes)
     except ValueError as reason:
-        raise InputError(f"{aircraft.path}: {reason}") from None
+        raise InputError(f"{rotor.path}: {reason}") from None
     radius = np.linspace(blade["root_station"], blade["radius"], 201)
     raw = {name: np.asarray(values).T for name, values in core.shapes(radius).items()}
     tip = np.maximum(np.abs(raw["v"][:, -1]), np.abs(raw["w"][:, -1]))
     scale = np.where(np.asarray(core.energy_shares)[:, 2] > 0.5, np.abs(raw["phi"][:, -1]), tip)
     shapes = {name: raw[key] / scale[:, None] for name, key in (("flap", "w"), ("lead", "v"), ("twist", "phi"))}
-    return BladeModes(
-        np.asarray(core.frequencies_per_rev), np.asarray(core.energy_shares), radius, shapes, omega, pitch
-    )
+    return BladeModes(np.asarray(core.frequencies), np.asarray(core.energy_shares), radius, shapes, omega, pitch)
 
 
 def reference_table(aircraft: Aircraft, modes: BladeModes) -> str | None:

@@ -5,6 +5,7 @@ mod aircraft;
 mod atmosphere;
 mod blade;
 mod flight;
+mod inflow;
 mod rotor;
 mod stand;
 mod vortex;
@@ -19,6 +20,7 @@ fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
     blade::register(m)?;
     flight::register(m)?;
     stand::register(m)?;
+    inflow::register(m)?;
     vortex::register(m)?;
     wake::register(m)?;
     Ok(())
