@@ -20,7 +20,7 @@ PYTHON ?= $(firstword $(foreach p,python3 python3.14 python3.13 python3.12 pytho
 	$(p) -c 'import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo $(p))))
 present = $(shell command -v $(1) 2>/dev/null)
 
-.PHONY: fly test validate clean tools
+.PHONY: fly test validate bench clean tools
 .NOTPARALLEL:
 
 fly: $(STAMPS)/package
@@ -40,6 +40,10 @@ validate: $(STAMPS)/dev $(STAMPS)/package
 	cargo test $(CARGO_FLAGS) --package wakeflight --quiet -- --ignored
 	$(BIN)/python -m pytest -m slow
 	$(BIN)/wakeflight validate
+
+# tables of docs/numerics/performance.md; QUICK=1 for a short form, PARTS="kernel threads" for some of them
+bench: $(STAMPS)/package
+	$(BIN)/python benchmarks/bench.py $(if $(QUICK),--quick) $(PARTS)
 
 clean:
 	rm -rf $(VENV) target runs .pytest_cache .ruff_cache .mypy_cache .hypothesis

@@ -274,6 +274,8 @@ def induced_velocity(
     core_radius: _Array,
     core: str,
     core_distance: str,
+    method: str,
+    tolerance: float,
 ) -> _Array: ...
 def near_wake_matrix(
     options_json: str, hub_velocity: _Vector, hub_rates: _Vector, psi: float, flap: float, lead: float

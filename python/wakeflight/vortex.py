@@ -9,6 +9,7 @@ from wakeflight import _core
 
 CORES = ("singular", "scully", "vatistas2", "rankine", "lamb_oseen", "rosenhead_moore")
 CORE_DISTANCES = ("line", "segment")
+METHODS = ("direct", "tree", "auto")
 
 # the law multiplies up to sixteen lengths: beyond this they overflow
 FARTHEST = 1e15
@@ -21,6 +22,8 @@ def induced_velocity(
     core_radius: ArrayLike,
     core: str = "vatistas2",
     core_distance: str = "line",
+    method: str = "direct",
+    tolerance: float = 1e-3,
 ) -> NDArray[np.float64]:
     """Velocity induced at points by filaments of straight segments (n, 3) [m/s].
 
@@ -41,6 +44,11 @@ def induced_velocity(
     core_distance: what F is taken at, the distance to the infinite "line" through the segment or that to the
         "segment" itself.
         Without effect for singular and rosenhead_moore.
+    method: "direct", every segment at every point, exact to rounding; "tree", far segments by multipoles and near ones
+        exactly, for thousands of segments and more; "auto", the faster of the two (the tree from about 4000 points and
+        4000 segments on, docs/numerics/performance.md).
+        By the tree, a point's velocity depends within the tolerance on which other points are asked for.
+    tolerance [-]: error that the tree is allowed, over the largest induced velocity at the points.
     """
     points = _vectors("points", points)
     if isinstance(filaments, np.ndarray) and filaments.ndim != 3:
@@ -59,10 +67,15 @@ def induced_velocity(
         raise ValueError(f"core_radius[{i_segment}] = {core_radius[i_segment]:g}: allowed are 0 and more")
     _one_of("core", core, CORES)
     _one_of("core_distance", core_distance, CORE_DISTANCES)
+    _one_of("method", method, METHODS)
+    if not (isinstance(tolerance, (int, float)) and 0.0 < tolerance < 1.0):
+        raise ValueError(f"tolerance = {tolerance!r}: allowed are numbers above 0 and below 1")
 
     offsets = np.cumsum([0, *(len(filament) for filament in nodes)], dtype=np.int64)
     all_nodes = np.concatenate(nodes) if nodes else np.empty((0, 3))
-    return _core.induced_velocity(points, all_nodes, offsets, circulation, core_radius, core, core_distance)
+    return _core.induced_velocity(
+        points, all_nodes, offsets, circulation, core_radius, core, core_distance, method, float(tolerance)
+    )
 
 
 def _numbers(name: str, value: ArrayLike) -> NDArray[np.float64]:

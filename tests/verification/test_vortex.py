@@ -221,6 +221,24 @@ def test_filaments_of_different_lengths_add_up():
     assert wf.induced_velocity(points, [], [], []).tolist() == np.zeros((100, 3)).tolist()
 
 
+def test_verif_tree_and_direct_sum_agree_to_a_thousandth_of_the_largest_velocity():
+    # far turns by their multipoles, near ones with their cores: at the nodes themselves, where the largest errors are
+    age = np.arange(721) * np.pi / 36
+    radii = np.linspace(0.3, 1.0, 8)
+    filaments = [np.column_stack([r * np.cos(age) + 0.05 * age, r * np.sin(age), -0.02 * age]) for r in radii]
+    points = np.concatenate(filaments)
+    strengths = np.repeat([*[-1 / 7] * 7, 1.0], 720), np.full(8 * 720, 0.03)
+    direct = wf.induced_velocity(points, filaments, *strengths)
+    largest = np.linalg.norm(direct, axis=1).max()
+    for tolerance in (1e-3, 1e-5):
+        tree = wf.induced_velocity(points, filaments, *strengths, method="tree", tolerance=tolerance)
+        assert 0.0 < np.linalg.norm(tree - direct, axis=1).max() < 0.5 * tolerance * largest
+    auto = wf.induced_velocity(points, filaments, *strengths, method="auto")
+    assert np.array_equal(auto, wf.induced_velocity(points, filaments, *strengths, method="tree"))
+    few = wf.induced_velocity(points, filaments[:1], strengths[0][:720], strengths[1][:720], method="auto")
+    assert np.array_equal(few, wf.induced_velocity(points, filaments[:1], strengths[0][:720], strengths[1][:720]))
+
+
 @pytest.mark.parametrize(
     ("change", "message"),
     [
@@ -236,6 +254,8 @@ def test_filaments_of_different_lengths_add_up():
         ({"core_radius": [-0.1]}, r"core_radius\[0\] = -0.1: allowed are 0 and more"),
         ({"core": "vatistas"}, "core = 'vatistas': allowed are singular, scully"),
         ({"core_distance": "point"}, "core_distance = 'point': allowed are line, segment"),
+        ({"method": "fmm"}, "method = 'fmm': allowed are direct, tree, auto"),
+        ({"tolerance": 0.0}, "tolerance = 0.0: allowed are numbers above 0 and below 1"),
     ],
 )
 def test_bad_input_is_named_with_its_value_and_what_is_allowed(change, message):

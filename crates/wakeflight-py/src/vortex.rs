@@ -3,8 +3,9 @@ use numpy::{IntoPyArray, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use wakeflight::vortex::core::{Core, CoreDistance};
-use wakeflight::vortex::induced_velocity::{Filaments, add_filaments_velocity};
+use wakeflight::vortex::induced_velocity::Filaments;
 use wakeflight::vortex::threads;
+use wakeflight::vortex::tree::{Method, add_filaments_velocity_by};
 
 /// Adds the functions of this file to the module.
 pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
@@ -32,6 +33,15 @@ fn core_distance_named(name: &str) -> PyResult<CoreDistance> {
     }
 }
 
+fn method_named(name: &str, tolerance: f64) -> PyResult<Method> {
+    match name {
+        "direct" => Ok(Method::Direct),
+        "tree" => Ok(Method::Tree { tolerance }),
+        "auto" => Ok(Method::Auto { tolerance }),
+        _ => Err(PyValueError::new_err(format!("method = {name}: allowed are direct, tree, auto"))),
+    }
+}
+
 fn vectors(name: &str, array: &PyReadonlyArray2<f64>) -> PyResult<Vec<[f64; 3]>> {
     let array = array.as_array();
     if array.ncols() != 3 {
@@ -52,8 +62,11 @@ fn induced_velocity<'py>(
     core_radius: PyReadonlyArray1<'py, f64>,
     core: &str,
     core_distance: &str,
+    method: &str,
+    tolerance: f64,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
     let (core, core_distance) = (core_named(core)?, core_distance_named(core_distance)?);
+    let method = method_named(method, tolerance)?;
     threads::threads().map_err(|e| PyValueError::new_err(e.to_string()))?;
     let points = vectors("points", &points)?;
     let nodes = vectors("nodes", &nodes)?;
@@ -80,7 +93,7 @@ fn induced_velocity<'py>(
     }
     let velocity = py.detach(|| {
         let mut velocity = vec![[0.0; 3]; points.len()];
-        add_filaments_velocity(&points, &filaments, core, core_distance, &mut velocity);
+        add_filaments_velocity_by(method, &points, &filaments, core, core_distance, &mut velocity);
         velocity
     });
     let shape = [velocity.len(), 3];

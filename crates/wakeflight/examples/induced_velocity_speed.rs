@@ -1,10 +1,54 @@
 //! Nanoseconds per evaluation of the segment sum: 576 markers of four helices at their own segments, one thread.
+//!
+//! One line each: core distance, core, instruction set, median and best of the repetitions [ns]. `textbook` is the plain
+//! loop over points and segments of the reference law, measured in turn with the others.
 use std::f64::consts::FRAC_PI_2;
 use std::hint::black_box;
 use std::time::Instant;
-use wakeflight::vortex::core::{Core, CoreDistance};
+use wakeflight::vortex::core::{Core, CoreDistance, segment_velocity};
 use wakeflight::vortex::induced_velocity::{Filaments, InstructionSet, add_filaments_velocity_on};
 use wakeflight::vortex::threads::set_threads;
+
+const CORES: [Core; 6] =
+    [Core::Vatistas2, Core::Singular, Core::Scully, Core::Rankine, Core::LambOseen, Core::RosenheadMoore];
+
+/// Median and best time of `task` [s].
+fn timed(repetitions: usize, mut task: impl FnMut()) -> (f64, f64) {
+    let mut times: Vec<f64> = (0..repetitions)
+        .map(|_| {
+            let start = Instant::now();
+            task();
+            start.elapsed().as_secs_f64()
+        })
+        .collect();
+    times.sort_by(f64::total_cmp);
+    (times[repetitions / 2], times[0])
+}
+
+/// The textbook loop.
+fn textbook(
+    points: &[[f64; 3]],
+    filaments: &Filaments,
+    core: Core,
+    distance: CoreDistance,
+    velocity: &mut [[f64; 3]],
+) {
+    for (point, total) in points.iter().zip(velocity) {
+        let (mut node, mut segment) = (0, 0);
+        for n_nodes in &filaments.n_nodes {
+            for k in node..node + n_nodes - 1 {
+                let (start, end) = (filaments.nodes[k], filaments.nodes[k + 1]);
+                let (circulation, radius) = (filaments.circulation[segment], filaments.core_radius[segment]);
+                let v = segment_velocity(*point, start, end, circulation, radius, core, distance);
+                for axis in 0..3 {
+                    total[axis] += v[axis];
+                }
+                segment += 1;
+            }
+            node += n_nodes;
+        }
+    }
+}
 
 fn main() {
     set_threads(1).expect("one thread is allowed");
@@ -20,37 +64,27 @@ fn main() {
         filaments.push(&nodes, &[1.0; 144], &[0.05; 144]);
     }
     let evaluations = (points.len() * filaments.circulation.len()) as f64;
-    let sets = [InstructionSet::Scalar, InstructionSet::Vector, InstructionSet::Avx512];
-    println!("widest here: {:?}", InstructionSet::widest());
+    let mut velocity = vec![[0.0; 3]; points.len()];
+    let sets = [
+        ("scalar", InstructionSet::Scalar),
+        ("avx2", InstructionSet::Vector),
+        ("avx512", InstructionSet::Avx512),
+    ];
     for distance in [CoreDistance::Line, CoreDistance::Segment] {
-        for core in [
-            Core::Vatistas2,
-            Core::Singular,
-            Core::Scully,
-            Core::Rankine,
-            Core::LambOseen,
-            Core::RosenheadMoore,
-        ] {
-            for set in sets
-                .into_iter()
-                .filter(|set| *set != InstructionSet::Avx512 || InstructionSet::widest() == *set)
-            {
-                let mut velocity = vec![[0.0; 3]; points.len()];
-                let mut best = f64::INFINITY;
-                for _ in 0..60 {
-                    let start = Instant::now();
-                    add_filaments_velocity_on(
-                        set,
-                        black_box(&points),
-                        &filaments,
-                        core,
-                        distance,
-                        &mut velocity,
-                    );
-                    best = best.min(start.elapsed().as_secs_f64());
+        for core in CORES {
+            let mut line = |name: &str, repetitions: usize, task: &mut dyn FnMut(&mut [[f64; 3]])| {
+                let (median, best) = timed(repetitions, || task(black_box(&mut velocity)));
+                let (median, best) = (median * 1e9 / evaluations, best * 1e9 / evaluations);
+                println!("{distance:?} {core:?} {name} {median:.3} {best:.3}");
+            };
+            line("textbook", 11, &mut |v| textbook(&points, &filaments, core, distance, v));
+            for (name, set) in sets {
+                if set == InstructionSet::Avx512 && InstructionSet::widest() != set {
+                    continue;
                 }
-                black_box(&velocity);
-                println!("{distance:?} {core:?} {set:?}: {:.2} ns", best * 1e9 / evaluations);
+                line(name, 51, &mut |v| {
+                    add_filaments_velocity_on(set, &points, &filaments, core, distance, v);
+                });
             }
         }
     }

@@ -1,11 +1,12 @@
 //! Velocity induced by many straight segments at many points.
 
 use super::core::{Core, CoreDistance};
+pub use super::dispatch::InstructionSet;
+use super::dispatch::run;
 use super::kernel::Sum;
-use super::models::{LambOseen, Model, Rankine, RosenheadMoore, Scully, Singular, Vatistas2};
+use super::models::{ForModel, Model, for_core};
 use super::strands::Strands;
 use super::threads::pool;
-use pulp::{Arch, Scalar, Simd};
 use rayon::prelude::*;
 
 /// Straight segments from `start` to `end`, one entry each.
@@ -42,25 +43,6 @@ impl Filaments {
         self.n_nodes.push(nodes.len());
         self.circulation.extend_from_slice(circulation);
         self.core_radius.extend_from_slice(core_radius);
-    }
-}
-
-/// Lanes the sums run in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum InstructionSet {
-    /// One point at a time.
-    Scalar,
-    /// The widest vectors of this machine that need no more than AVX2, NEON or SIMD128.
-    Vector,
-    /// Eight points at a time with reciprocal roots by estimate and refinement.
-    Avx512,
-}
-
-impl InstructionSet {
-    /// The widest of this machine.
-    #[must_use]
-    pub fn widest() -> Self {
-        if avx512::available() { Self::Avx512 } else { Self::Vector }
     }
 }
 
@@ -111,7 +93,7 @@ pub fn add_filaments_velocity_on(
 }
 
 impl Segments {
-    fn strands(&self, core: Core) -> Strands {
+    pub(super) fn strands(&self, core: Core) -> Strands {
         let mut strands = Strands::with_capacity(self.start.len());
         let ends = self.start.iter().zip(&self.end);
         for ((start, end), (circulation, core_radius)) in
@@ -124,7 +106,7 @@ impl Segments {
 }
 
 impl Filaments {
-    fn strands(&self, core: Core) -> Strands {
+    pub(super) fn strands(&self, core: Core) -> Strands {
         let mut strands = Strands::with_capacity(self.circulation.len());
         let (mut nodes, mut values) = (self.nodes.as_slice(), self.circulation.iter().zip(&self.core_radius));
         for &n_nodes in &self.n_nodes {
@@ -138,7 +120,8 @@ impl Filaments {
     }
 }
 
-fn add(
+/// Adds the sum over all `strands`.
+pub(super) fn add(
     points: &[[f64; 3]],
     strands: &Strands,
     core: Core,
@@ -146,108 +129,32 @@ fn add(
     instruction_set: InstructionSet,
     velocity: &mut [[f64; 3]],
 ) {
-    match core {
-        Core::Singular => modelled::<Singular>(points, strands, core_distance, instruction_set, velocity),
-        Core::Scully => modelled::<Scully>(points, strands, core_distance, instruction_set, velocity),
-        Core::Vatistas2 => modelled::<Vatistas2>(points, strands, core_distance, instruction_set, velocity),
-        Core::Rankine => modelled::<Rankine>(points, strands, core_distance, instruction_set, velocity),
-        Core::LambOseen => modelled::<LambOseen>(points, strands, core_distance, instruction_set, velocity),
-        Core::RosenheadMoore => {
-            modelled::<RosenheadMoore>(points, strands, core_distance, instruction_set, velocity)
-        }
-    }
+    for_core(core, core_distance, Direct { points, strands, instruction_set, velocity });
 }
 
-fn modelled<M: Model>(
-    points: &[[f64; 3]],
-    strands: &Strands,
-    core_distance: CoreDistance,
+/// The sum of every segment at every point.
+struct Direct<'a> {
+    points: &'a [[f64; 3]],
+    strands: &'a Strands,
     instruction_set: InstructionSet,
-    velocity: &mut [[f64; 3]],
-) {
-    match core_distance {
-        CoreDistance::Line => shared::<M, false>(points, strands, instruction_set, velocity),
-        CoreDistance::Segment => shared::<M, true>(points, strands, instruction_set, velocity),
-    }
+    velocity: &'a mut [[f64; 3]],
 }
 
-/// Shares the points among threads; every point sees all sources in order, whichever thread it is on.
-fn shared<M: Model, const TO_SEGMENT: bool>(
-    points: &[[f64; 3]],
-    strands: &Strands,
-    instruction_set: InstructionSet,
-    velocity: &mut [[f64; 3]],
-) {
-    debug_assert_eq!(points.len(), velocity.len());
-    let worth_sharing = points.len() > CHUNK && points.len() * strands.pieces.len() > LEAST_SHARED_WORK;
-    match pool().filter(|_| worth_sharing) {
-        Some(pool) => pool.install(|| {
-            points.par_chunks(CHUNK).zip(velocity.par_chunks_mut(CHUNK)).for_each(|(points, velocity)| {
-                run(Sum::<M, TO_SEGMENT>::new(points, strands, velocity), instruction_set);
-            });
-        }),
-        None => run(Sum::<M, TO_SEGMENT>::new(points, strands, velocity), instruction_set),
-    }
-}
-
-fn run<M: Model, const TO_SEGMENT: bool>(sum: Sum<M, TO_SEGMENT>, instruction_set: InstructionSet) {
-    match instruction_set {
-        InstructionSet::Scalar => Scalar.vectorize(sum),
-        InstructionSet::Vector => avx512::without(sum),
-        InstructionSet::Avx512 => avx512::with(sum),
-    }
-}
-
-#[cfg(target_arch = "x86_64")]
-mod avx512 {
-    use super::{Arch, Model, Scalar, Simd, Sum};
-    use crate::vortex::roots::Refined;
-    use pulp::WithSimd;
-    use pulp::x86::{V3, V4};
-
-    pub fn available() -> bool {
-        V4::is_available()
-    }
-
-    pub fn without<M: Model, const TO_SEGMENT: bool>(sum: Sum<M, TO_SEGMENT>) {
-        match V3::try_new() {
-            Some(simd) => Simd::vectorize(simd, sum),
-            None => Scalar.vectorize(sum),
+impl ForModel for Direct<'_> {
+    /// Shares the points among threads; every point sees all sources in order, whichever thread it is on.
+    fn run<M: Model, const TO_SEGMENT: bool>(self) {
+        let Self { points, strands, instruction_set, velocity } = self;
+        debug_assert_eq!(points.len(), velocity.len());
+        let worth_sharing = points.len() > CHUNK && points.len() * strands.pieces.len() > LEAST_SHARED_WORK;
+        match pool().filter(|_| worth_sharing) {
+            Some(pool) => pool.install(|| {
+                points.par_chunks(CHUNK).zip(velocity.par_chunks_mut(CHUNK)).for_each(
+                    |(points, velocity)| {
+                        run(Sum::<M, TO_SEGMENT>::new(points, strands, velocity), instruction_set);
+                    },
+                );
+            }),
+            None => run(Sum::<M, TO_SEGMENT>::new(points, strands, velocity), instruction_set),
         }
-    }
-
-    /// The sum with the token of its instruction set, which `WithSimd` would only hand over as some `Simd`.
-    struct Wide<'a, M, const TO_SEGMENT: bool>(V4, Sum<'a, M, TO_SEGMENT>);
-
-    impl<M: Model, const TO_SEGMENT: bool> WithSimd for Wide<'_, M, TO_SEGMENT> {
-        type Output = ();
-        #[inline(always)]
-        fn with_simd<S: Simd>(self, _: S) {
-            self.1.run(self.0, Refined);
-        }
-    }
-
-    pub fn with<M: Model, const TO_SEGMENT: bool>(sum: Sum<M, TO_SEGMENT>) {
-        match V4::try_new() {
-            Some(simd) => Simd::vectorize(simd, Wide(simd, sum)),
-            None => Arch::new().dispatch(sum),
-        }
-    }
-}
-
-#[cfg(not(target_arch = "x86_64"))]
-mod avx512 {
-    use super::{Arch, Model, Sum};
-
-    pub fn available() -> bool {
-        false
-    }
-
-    pub fn without<M: Model, const TO_SEGMENT: bool>(sum: Sum<M, TO_SEGMENT>) {
-        Arch::new().dispatch(sum);
-    }
-
-    pub fn with<M: Model, const TO_SEGMENT: bool>(sum: Sum<M, TO_SEGMENT>) {
-        without(sum);
     }
 }

@@ -3,12 +3,13 @@
 //! No closure and no iterator adapter touches a vector: such functions do not inherit the instruction set of their
 //! caller, and one that is compiled on its own costs ten times the arithmetic.
 
+use super::dispatch::OverLanes;
 use super::lanes::{LEAST_SQUARE, Lanes};
 use super::models::{Model, Seen};
-use super::roots::{Exact, Roots};
-use super::strands::{Piece, Strands};
+use super::roots::Roots;
+use super::strands::{Piece, Strand, Strands};
+use pulp::Simd;
 use pulp::bytemuck::{cast_slice, cast_slice_mut};
-use pulp::{Simd, WithSimd};
 use std::marker::PhantomData;
 
 /// A sum over segments at some points, for one core model and distance.
@@ -20,7 +21,7 @@ pub(super) struct Sum<'a, M, const TO_SEGMENT: bool> {
 }
 
 /// Position or velocity of several points.
-type Vectors<S> = [<S as Simd>::f64s; 3];
+pub(super) type Vectors<S> = [<S as Simd>::f64s; 3];
 
 /// Points seen from one node: separation, its square and its length.
 struct FromNode<S: Simd> {
@@ -34,34 +35,25 @@ impl<'a, M: Model, const TO_SEGMENT: bool> Sum<'a, M, TO_SEGMENT> {
     pub fn new(points: &'a [[f64; 3]], strands: &'a Strands, velocity: &'a mut [[f64; 3]]) -> Self {
         Self { points, strands, velocity, model: PhantomData }
     }
-
-    /// Runs on lanes of `S` with roots by `R`; a point's result does not depend on its neighbours.
-    #[inline(always)]
-    pub fn run<S: Simd, R: Roots<S>>(self, simd: S, roots: R) {
-        let (on, count) = (Lanes::new(simd, roots), Lanes::<S, R>::COUNT);
-        for (points, velocity) in self.points.chunks(count).zip(self.velocity.chunks_mut(count)) {
-            let sum = over_sources::<S, R, M, TO_SEGMENT>(on, gathered(on, points), self.strands);
-            for (axis, component) in sum.iter().enumerate() {
-                let component: &[f64] = cast_slice(std::slice::from_ref(component));
-                for (v, added) in velocity.iter_mut().zip(component) {
-                    v[axis] += added;
-                }
-            }
-        }
-    }
 }
 
-impl<M: Model, const TO_SEGMENT: bool> WithSimd for Sum<'_, M, TO_SEGMENT> {
-    type Output = ();
+impl<M: Model, const TO_SEGMENT: bool> OverLanes for Sum<'_, M, TO_SEGMENT> {
+    /// A point's result does not depend on its neighbours.
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
-        self.run(simd, Exact);
+    fn run<S: Simd, R: Roots<S>>(self, simd: S, roots: R) {
+        let (on, count) = (Lanes::new(simd, roots), Lanes::<S, R>::COUNT);
+        for (points, velocity) in self.points.chunks(count).zip(self.velocity.chunks_mut(count)) {
+            let mut sum = [on.splat(0.0); 3];
+            let (strands, pieces) = (&self.strands.strands, &self.strands.pieces);
+            over_sources::<S, R, M, TO_SEGMENT>(on, &gathered(on, points), strands, pieces, &mut sum);
+            scattered::<S>(&sum, velocity);
+        }
     }
 }
 
 /// Coordinates across lanes; lanes past the end repeat the last point, so that all lanes do the same.
 #[inline(always)]
-fn gathered<S: Simd, R: Roots<S>>(on: Lanes<S, R>, points: &[[f64; 3]]) -> Vectors<S> {
+pub(super) fn gathered<S: Simd, R: Roots<S>>(on: Lanes<S, R>, points: &[[f64; 3]]) -> Vectors<S> {
     let mut coordinates = [on.splat(0.0); 3];
     for (axis, component) in coordinates.iter_mut().enumerate() {
         let lanes: &mut [f64] = cast_slice_mut(std::slice::from_mut(component));
@@ -72,25 +64,37 @@ fn gathered<S: Simd, R: Roots<S>>(on: Lanes<S, R>, points: &[[f64; 3]]) -> Vecto
     coordinates
 }
 
+/// Adds the lanes of `sum` to `velocity`.
 #[inline(always)]
-fn over_sources<S: Simd, R: Roots<S>, M: Model, const TO_SEGMENT: bool>(
+pub(super) fn scattered<S: Simd>(sum: &Vectors<S>, velocity: &mut [[f64; 3]]) {
+    for axis in 0..3 {
+        let component: &[f64] = cast_slice(std::slice::from_ref(&sum[axis]));
+        for i in 0..velocity.len() {
+            velocity[i][axis] += component[i];
+        }
+    }
+}
+
+/// Adds what `strands` with their `pieces` induce at `points`.
+#[inline(always)]
+pub(super) fn over_sources<S: Simd, R: Roots<S>, M: Model, const TO_SEGMENT: bool>(
     on: Lanes<S, R>,
-    points: Vectors<S>,
-    strands: &Strands,
-) -> Vectors<S> {
-    let mut sum = [on.splat(0.0); 3];
-    let mut rest = strands.pieces.as_slice();
-    for strand in &strands.strands {
+    points: &Vectors<S>,
+    strands: &[Strand],
+    pieces: &[Piece],
+    sum: &mut Vectors<S>,
+) {
+    let mut rest = pieces;
+    for strand in strands {
         let (pieces, others) = rest.split_at(strand.n_pieces);
         rest = others;
-        let mut from_start = from_node(on, &points, &strand.start);
+        let mut from_start = from_node(on, points, &strand.start);
         for piece in pieces {
-            let from_end = from_node(on, &points, &piece.end);
-            add_piece::<S, R, M, TO_SEGMENT>(on, &from_start, &from_end, piece, &mut sum);
+            let from_end = from_node(on, points, &piece.end);
+            add_piece::<S, R, M, TO_SEGMENT>(on, &from_start, &from_end, piece, sum);
             from_start = from_end;
         }
     }
-    sum
 }
 
 #[inline(always)]
@@ -103,7 +107,7 @@ fn from_node<S: Simd, R: Roots<S>>(on: Lanes<S, R>, points: &Vectors<S>, node: &
 }
 
 #[inline(always)]
-fn dot<S: Simd, R: Roots<S>>(on: Lanes<S, R>, a: &Vectors<S>, b: &Vectors<S>) -> S::f64s {
+pub(super) fn dot<S: Simd, R: Roots<S>>(on: Lanes<S, R>, a: &Vectors<S>, b: &Vectors<S>) -> S::f64s {
     on.mul_add(a[0], b[0], on.mul_add(a[1], b[1], on.mul(a[2], b[2])))
 }
 

@@ -3,7 +3,9 @@ pub mod core;
 pub mod curvature;
 pub mod induced_velocity;
 pub mod threads;
+pub mod tree;
 
+mod dispatch;
 mod kernel;
 mod lanes;
 mod models;

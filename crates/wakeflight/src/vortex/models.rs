@@ -1,6 +1,6 @@
 //! Core models as denominators of the segment law, several points at a time.
 
-use super::core::LAMB_OSEEN_ALPHA;
+use super::core::{Core, CoreDistance, LAMB_OSEEN_ALPHA};
 use super::lanes::{LEAST_SQUARE, Lanes};
 use super::roots::Roots;
 use pulp::Simd;
@@ -26,6 +26,31 @@ pub(super) trait Model: Copy + Send + Sync {
     #[inline(always)]
     fn factor<S: Simd, R: Roots<S>>(on: Lanes<S, R>, _: Seen<S>) -> S::f64s {
         on.splat(1.0)
+    }
+}
+
+/// A computation for one core model and distance.
+pub(super) trait ForModel {
+    /// Runs for the model `M`.
+    fn run<M: Model, const TO_SEGMENT: bool>(self);
+}
+
+/// Runs `task` for the model of `core` at `core_distance`.
+pub(super) fn for_core<T: ForModel>(core: Core, core_distance: CoreDistance, task: T) {
+    match core {
+        Core::Singular => at_distance::<Singular, T>(core_distance, task),
+        Core::Scully => at_distance::<Scully, T>(core_distance, task),
+        Core::Vatistas2 => at_distance::<Vatistas2, T>(core_distance, task),
+        Core::Rankine => at_distance::<Rankine, T>(core_distance, task),
+        Core::LambOseen => at_distance::<LambOseen, T>(core_distance, task),
+        Core::RosenheadMoore => at_distance::<RosenheadMoore, T>(core_distance, task),
+    }
+}
+
+fn at_distance<M: Model, T: ForModel>(core_distance: CoreDistance, task: T) {
+    match core_distance {
+        CoreDistance::Line => task.run::<M, false>(),
+        CoreDistance::Segment => task.run::<M, true>(),
     }
 }
 

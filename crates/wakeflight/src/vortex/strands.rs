@@ -24,7 +24,7 @@ pub(super) struct Piece {
 }
 
 /// Joined segments: the end of one is the start of the next.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Strand {
     /// Start point of the first piece [m].
     pub start: [f64; 3],

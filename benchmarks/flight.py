@@ -1,0 +1,83 @@
+"""Residual, Jacobian, revolutions and whole manoeuvres."""
+
+import numpy as np
+from measure import seconds, table
+
+import wakeflight as wf
+from wakeflight import flight as flying
+
+PHASES = ("seconds_trim", "seconds_convergence", "seconds_wake", "seconds_dynamics")
+
+
+def start(inflow: str) -> "wf.Trim":
+    """Descent of the arrested-descent manoeuvre, trimmed."""
+    condition = wf.FlightCondition(speed="80 kt", flight_path="-6 deg", altitude="5250 ft", weight="16000 lbf")
+    return wf.trim(wf.load_aircraft("uh60a"), condition, inflow=inflow)
+
+
+def dynamics(quick: bool) -> str:
+    """One residual and one Jacobian of F(y_dot, y, u, t), beside the Jacobian by differences of the residual."""
+    trimmed = start("dynamic")
+    model = flying.flight_model(trimmed, None)
+    sticks = flying.Sticks(wf.roll_reversal(), trimmed.stick_si)
+    source, _ = flying.inflow_source(model, trimmed, flying.Silent())
+    held, mean = source.held(0)
+    inputs = flying.coupling_inputs(sticks, 0.0, held, mean, trimmed.stabilator_incidence)
+    y = trimmed.state(0.0)
+    y_dot = flying.consistent_rate(model, 0.0, y, inputs)
+    n = y.size
+    out, matrix = np.empty(n), np.empty((n, n))
+
+    def by_differences() -> None:
+        for i in range(n):
+            shifted = y.copy()
+            shifted[i] += 1e-7 * max(1.0, abs(y[i]))
+            model.core.residual(0.0, shifted, y_dot, inputs, out)
+
+    repetitions = 50 if quick else 300
+    residual, _ = seconds(lambda: model.core.residual(0.0, y, y_dot, inputs, out), repetitions)
+    jacobian, _ = seconds(lambda: model.core.jacobian(0.0, y, y_dot, inputs, 1.0, 100.0, matrix), repetitions)
+    differences, _ = seconds(by_differences, max(3, repetitions // 20))
+    return table(
+        ["what", "microseconds", "in residuals"],
+        [
+            [f"residual of {n} states", f"{residual * 1e6:.0f}", "1"],
+            ["exact Jacobian", f"{jacobian * 1e6:.0f}", f"{jacobian / residual:.1f}"],
+            ["the same by one-sided differences", f"{differences * 1e6:.0f}", f"{differences / residual:.1f}"],
+        ],
+    )
+
+
+def maneuvers(quick: bool, ns_per_evaluation: float) -> str:
+    """Each phase of a flight against the time flown; the floor is the segment evaluations at the kernel's speed."""
+    rows = []
+    revolutions = 2.0 if quick else None
+    for inflow in ("dynamic", "relaxation"):
+        trimmed = start(inflow)
+        for maneuver in (wf.roll_reversal(),) if quick else (wf.roll_reversal(), wf.arrested_descent()):
+            for integrator in ("ida", "fixed"):
+                try:
+                    flight = wf.fly(trimmed, maneuver, revolutions=revolutions, integrator=integrator)
+                except wf.InputError:
+                    # not every version has the second integrator
+                    continue
+                attributes = flight.data.attrs
+                phases = [float(attributes[name]) for name in PHASES]
+                flown = float(flight.data.time[-1])
+                in_flight = phases[2] + phases[3]
+                floor = float(attributes.get("segment_evaluations", 0)) * ns_per_evaluation * 1e-9
+                marched = "dynamic inflow" if inflow == "dynamic" else "time marching"
+                cells = [f"{value:.2f}" for value in (flown, *phases)]
+                rows.append([maneuver.name, marched, integrator, *cells, f"{flown / in_flight:.2f}", f"{floor:.2f}"])
+    head = ["manoeuvre", "inflow", "integrator", "flown [s]", "trim [s]", "convergence [s]"]
+    return table([*head, "wake [s]", "dynamics [s]", "real-time factor", "wake's floor [s]"], rows)
+
+
+def import_time() -> str:
+    """Start-up of the package in a fresh interpreter."""
+    import subprocess
+    import sys
+
+    median, best = seconds(lambda: subprocess.run([sys.executable, "-c", "import wakeflight"], check=True), 7)
+    empty, _ = seconds(lambda: subprocess.run([sys.executable, "-c", "pass"], check=True), 7)
+    return f"`import wakeflight`: {median:.2f} s (best {best:.2f}), of which an empty interpreter {empty:.2f} s.\n"
