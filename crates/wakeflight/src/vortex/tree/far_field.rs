@@ -42,26 +42,26 @@ pub(super) fn over_harmonics<S: Simd, R: Roots<S>>(
     let y = on.mul(separation[1], inverse_sq);
     let z = on.mul(separation[2], inverse_sq);
 
-    // order 0 is real
+    // real and imaginary parts are summed apart, cell by cell: one long chain of additions would set the pace
+    let (mut of_re, mut of_im) = ([on.splat(0.0); 3], [on.splat(0.0); 3]);
+    let (of_order_0, mut rest) = coefficients.as_chunks::<3>().0.split_at(VELOCITY_DEGREE);
     let (mut before, mut last) = (on.splat(0.0), inverse);
-    let mut next = 0;
-    for n in 1..=VELOCITY_DEGREE {
+    for n in 1..VELOCITY_DEGREE + 1 {
         let back = on.mul(on.splat(BACK[0][n]), inverse_sq);
         let value = on.sub_mul(on.mul(z, last), back, before);
         (before, last) = (last, value);
-        for axis in 0..3 {
-            sum[axis] = on.mul_add(on.splat(coefficients[next + axis]), value, sum[axis]);
-        }
-        next += 3;
+        add_product(on, &of_order_0[n - 1], value, &mut of_re);
     }
 
     let (mut top_re, mut top_im) = (inverse, on.splat(0.0));
-    for m in 1..=VELOCITY_DEGREE {
+    for m in 1..VELOCITY_DEGREE + 1 {
         (top_re, top_im) =
             (on.sub_mul(on.mul(x, top_re), y, top_im), on.mul_add(x, top_im, on.mul(y, top_re)));
         let (mut last_re, mut last_im) = (top_re, top_im);
         let (mut before_re, mut before_im) = (on.splat(0.0), on.splat(0.0));
-        for n in m..=VELOCITY_DEGREE {
+        let (of_order, others) = rest.split_at(2 * (VELOCITY_DEGREE + 1 - m));
+        rest = others;
+        for n in m..VELOCITY_DEGREE + 1 {
             if n > m {
                 let back = on.mul(on.splat(BACK[m][n]), inverse_sq);
                 let re = on.sub_mul(on.mul(z, last_re), back, before_re);
@@ -69,11 +69,24 @@ pub(super) fn over_harmonics<S: Simd, R: Roots<S>>(
                 (before_re, before_im) = (last_re, last_im);
                 (last_re, last_im) = (re, im);
             }
-            for axis in 0..3 {
-                sum[axis] = on.mul_add(on.splat(coefficients[next + axis]), last_re, sum[axis]);
-                sum[axis] = on.mul_add(on.splat(coefficients[next + 3 + axis]), last_im, sum[axis]);
-            }
-            next += 6;
+            add_product(on, &of_order[2 * (n - m)], last_re, &mut of_re);
+            add_product(on, &of_order[2 * (n - m) + 1], last_im, &mut of_im);
         }
+    }
+    for axis in 0..3 {
+        sum[axis] = on.add(sum[axis], on.add(of_re[axis], of_im[axis]));
+    }
+}
+
+/// Adds `factors` times `value` to the components of `sum`.
+#[inline(always)]
+fn add_product<S: Simd, R: Roots<S>>(
+    on: Lanes<S, R>,
+    factors: &[f64; 3],
+    value: S::f64s,
+    sum: &mut Vectors<S>,
+) {
+    for axis in 0..3 {
+        sum[axis] = on.mul_add(on.splat(factors[axis]), value, sum[axis]);
     }
 }
