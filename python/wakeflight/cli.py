@@ -456,6 +456,7 @@ def _harmonic(text: str) -> dict[str, Any]:
 @app.command()
 def paper(
     redraw: Annotated[bool, typer.Option("--redraw", help="draw anew from the flights a former call left")] = False,
+    studies: Annotated[bool, typer.Option("--studies", help="also fly the studies beyond the paper")] = False,
     jobs: Annotated[int | None, typer.Option("--jobs", help="flights at a time; as many as cores")] = None,
     out: Out = None,
 ) -> None:
@@ -467,7 +468,7 @@ def paper(
     from .progress import Progress
 
     with Progress() as progress:
-        path = reproduce(_folder(folder), redraw, jobs, progress)
+        path = reproduce(_folder(folder), redraw, jobs, progress, studies)
     print(f"wrote {path}")
 
 

@@ -119,6 +119,8 @@ class _Wake:
     """Where the tip vortex leaves the blade, over the radius."""
     n_stations: int = 20
     """Blade stations, at the middles of elements that narrow towards the tip."""
+    rates: bool = True
+    """Whether the body's rates act on the free filaments (on blades and near wake they always do)."""
 
     name: ClassVar[str] = ""
 

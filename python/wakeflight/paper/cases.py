@@ -14,6 +14,7 @@ from ..inflow import DynamicInflow, RelaxationWake, TimeMarchingWake
 
 if TYPE_CHECKING:
     from ..inflow import InflowModel
+    from ..maneuvers import Maneuver
 
 MANEUVERS = ("arrested-descent", "roll-reversal")
 MODELS: dict[str, InflowModel] = {
@@ -31,13 +32,20 @@ UNTIL_CONVERGED = 400
 
 @dataclass(frozen=True)
 class Case:
-    """One flight: name (also that of its file), manoeuvre, inflow model, and a rough cost for the order of work."""
+    """One flight: `name`, also that of its file; manoeuvre, inflow model, and how it differs from the paper's settings.
+
+    cost: rough, for the order of work. condition: a named one of the aircraft file. given: values of a flight condition.
+    modes: of a blade, where not the aircraft's own. revolutions: where not the manoeuvre's.
+    """
 
     name: str
-    maneuver: str
+    maneuver: str | Maneuver
     inflow: InflowModel
     cost: float = 1.0
     condition: str | None = None
+    given: tuple[tuple[str, str], ...] = ()
+    modes: int | None = None
+    revolutions: float | None = None
 
 
 def base_cases() -> list[Case]:

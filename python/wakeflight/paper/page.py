@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import base64
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.figure import Figure
 
+    from .studies import Finding
+
     Runs = Mapping[str, xr.Dataset]
 
 
@@ -33,10 +35,17 @@ class Drawn:
     png: str
 
 
-def write(runs: Runs, out_dir: Path, rotor: Mapping[str, float]) -> Path:
+def write(
+    runs: Runs,
+    out_dir: Path,
+    rotor: Mapping[str, float],
+    findings: Sequence[Finding] = (),
+    missed: Sequence[str] = (),
+) -> Path:
     """Write figures, wakes for ParaView and `report.html` into `out_dir`; returns the path of the page.
 
-    runs: flights by case name. rotor: shaft_tilt [rad], hinge_offset, root_cutout and chord over R.
+    runs: flights by case name. rotor: shaft_tilt [rad], hinge_offset, root_cutout and chord over R. findings, missed: of
+    the studies, and of those that could not be finished.
     """
     from jinja2 import Environment, PackageLoader, StrictUndefined
 
@@ -74,6 +83,8 @@ def write(runs: Runs, out_dir: Path, rotor: Mapping[str, float]) -> Path:
         cost_rows=cost.table(runs),
         cap_head=cost.CAP_HEAD,
         cap_rows=cost.cap_table(runs),
+        studies=[(f, _draw(f"study-{f.name}", f.done, lambda f=f: f.figure, out_dir)) for f in findings],
+        missed=list(missed),
         configurations={name: configuration(run) for name, run in runs.items()},
         wake_data=viewer.data(flights, rotor).replace("</", "<\\/"),
         wake_script=viewer.script(),

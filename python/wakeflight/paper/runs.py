@@ -31,9 +31,19 @@ def fly_all(
     Flights are single-threaded and spread over `workers` processes (the cores of the machine), the long ones first.
     A flight that fails leaves what it computed and ends the whole with `NumericalFailure` once the others are done.
     """
+    failures = attempt(cases, folder, workers, progress)
+    if failures:
+        raise NumericalFailure("; ".join(f"{name}: {failure}" for name, failure in failures.items()))
+    return load_all(cases, folder)
+
+
+def attempt(
+    cases: Sequence[Case], folder: Path, workers: int | None = None, progress: Progress | Silent | None = None
+) -> dict[str, str]:
+    """Fly every case and save each; what failed, by name."""
     progress = progress or Silent()
     workers = workers or max(1, len(os.sched_getaffinity(0)))
-    failures = []
+    failures = {}
     for case in cases:
         (folder / case.name).parent.mkdir(parents=True, exist_ok=True)
     # forked before anything has started a thread
@@ -44,11 +54,9 @@ def fly_all(
         for done in as_completed(flights):
             failure = done.result()
             if failure:
-                failures.append(f"{flights[done].name}: {failure}")
+                failures[flights[done].name] = failure
             progress.advance(1, flights[done].name)
-    if failures:
-        raise NumericalFailure("; ".join(failures))
-    return load_all(cases, folder)
+    return failures
 
 
 def load_all(cases: Sequence[Case], folder: Path) -> dict[str, xr.Dataset]:
@@ -85,12 +93,16 @@ def _fly(case: Case, path: Path) -> str:
     from ..maneuvers import load_maneuver
 
     clock, log = time.process_time(), Log()
-    start = _trim(case, log)
+    try:
+        start = _trim(case, log)
+    except NumericalFailure as reason:
+        return str(reason)
     spent = time.process_time() - clock
     clock = time.process_time()
     failure = ""
     try:
-        flight = fly(start, load_maneuver(case.maneuver), inflow=case.inflow, progress=log)
+        maneuver = load_maneuver(case.maneuver) if isinstance(case.maneuver, str) else case.maneuver
+        flight = fly(start, maneuver, inflow=case.inflow, revolutions=case.revolutions, progress=log)
     except NumericalFailure as reason:
         if reason.partial is None:
             return str(reason)
@@ -117,10 +129,13 @@ def _trim(case: Case, log: Log) -> Any:
 
     model = trim_model(case.inflow)
     if isinstance(model, RelaxationWake):
-        # the cap in flight is no part of a trim
-        model = replace(model, max_loops_response=RelaxationWake().max_loops_response)
-    key = (model, case.condition)
+        # what acts in flight alone is no part of a trim
+        model = replace(model, max_loops_response=RelaxationWake().max_loops_response, rates=True)
+    key = (model, case.condition, case.given, case.modes)
     if key not in _TRIMS:
         aircraft = load_aircraft("uh60a")
-        _TRIMS[key] = trim(aircraft, condition_for(aircraft, named=case.condition), inflow=model, progress=log)
+        if case.modes is not None:
+            aircraft = aircraft.discretised(n_modes=case.modes)
+        condition = condition_for(aircraft, named=case.condition, **dict(case.given))
+        _TRIMS[key] = trim(aircraft, condition, inflow=model, progress=log)
     return _TRIMS[key]

@@ -212,7 +212,8 @@ def flapping_apart(runs: Runs) -> str:
     inflow = {m: harmonics(revolution_map(runs[f"{R}/{m}"], "inflow", 20.0)) for m in (DI, TM)}
     w = {m: at(runs[f"{R}/{m}"], "w", 4.4) for m in (DI, TM)}
     return (
-        f"The models part at the left step, not at the third: at 4.4 s β₁c is {tilt[DI]:.1f}° with dynamic inflow and "
+        f"The models part at the left step, not at the third: at 4.4 s β₁c is {tilt[DI]:.1f}° with dynamic "
+        f"inflow and "
         f"{tilt[TM]:.1f}° with time marching, w {w[DI]:.0f} and {w[TM]:.0f} m/s; in revolution 20 the "
         f"gradients of inflow are "
         f"λ₁c = {inflow[DI][1]:.3f}, λ₁s = {inflow[DI][2]:.3f} with dynamic inflow, {inflow[TM][1]:.3f} and "
@@ -285,7 +286,8 @@ def phase_cost(runs: Runs) -> str:
     counted = cost.work(run)
     wake, dynamics = (float(run.attrs[f"seconds_{part}"]) for part in ("wake", "dynamics"))
     return (
-        f"In the short manoeuvre the ten revolutions of the convergence phase ({counted.convergence / 1e6:.0f} million "
+        f"In the short manoeuvre the ten revolutions of the convergence phase "
+        f"({counted.convergence / 1e6:.0f} million "
         f"segments) cost nearly as much as the twelve flown ({counted.flight / 1e6:.0f}), and the flight "
         f"dynamics, the same "
         f"for both wakes, take {100 * dynamics / (wake + dynamics):.0f} % of the time in flight."
