@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 from ..plotting import disk, histories, trim_maps
 from ..plotting.histories import DEG, Panel
+from ..plotting.style import styled
 from . import drawings
 from .quantities import change_from_trim
 from .statements.roll import roll_weight
@@ -42,6 +43,7 @@ def history(name: str, maneuver: str, panel: Panel, caption: str) -> PaperFigure
     return PaperFigure(name, caption, maneuver, partial(_history, panel=panel, title=caption))
 
 
+@styled
 def _history(runs: Runs, panel: Panel, title: str) -> Figure:
     return histories.histories(runs, [panel], title, columns=1, height=2.3)
 

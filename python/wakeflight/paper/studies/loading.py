@@ -8,12 +8,14 @@ from typing import TYPE_CHECKING
 
 from ...plotting import histories
 from ...plotting.histories import DEG, Panel
+from ...plotting.style import styled
 from ..cases import MODELS, Case
 from ..statements import descent
 from .finding import Finding, verdict_changes
 
 if TYPE_CHECKING:
     import xarray as xr
+    from matplotlib.figure import Figure
 
     Runs = Mapping[str, xr.Dataset]
 
@@ -43,12 +45,18 @@ def finding(runs: Runs) -> Finding:
         "loading",
         "The printed blade loading",
         "The arrested descent with 16 000 lb at 930 ft, where C_T/σ is 0.071 as printed, instead of at 5250 ft.",
-        histories.histories(flights, PANELS, f"Arrested descent at C_T/σ = {_loading(flights):.4f}"),
+        figure(flights),
         ("statement", "5250 ft", "930 ft"),
         [list(row) for row in changed] or [["none", "–", "–"]],
         f"{len(changed)} of {len(base)} verdicts of Figures 3 to 11 depend on the reading; C_T/σ at trim "
         f"is {_loading(flights):.4f}.",
     )
+
+
+@styled
+def figure(flights: Runs) -> Figure:
+    """Force, moment, velocity and attitude of the three models."""
+    return histories.histories(flights, PANELS, f"Arrested descent at C_T/σ = {_loading(flights):.4f}", height=1.8)
 
 
 def _loading(flights: Runs) -> float:
