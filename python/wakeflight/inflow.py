@@ -192,6 +192,7 @@ class _Wake:
             "core_stretching": self.core_stretching,
             "core_distance": self.core_distance,
             "curvature_correction": self.curvature_correction,
+            "rates": self.rates,
             "near_wake_angle": self.near_wake_angle,
             "near_wake_segments": self.near_wake_segments,
             "bound_core": float(self.bound_core),

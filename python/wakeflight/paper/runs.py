@@ -129,8 +129,8 @@ def _trim(case: Case, log: Log) -> Any:
 
     model = trim_model(case.inflow)
     if isinstance(model, RelaxationWake):
-        # what acts in flight alone is no part of a trim
-        model = replace(model, max_loops_response=RelaxationWake().max_loops_response, rates=True)
+        # the cap in flight is no part of a trim
+        model = replace(model, max_loops_response=RelaxationWake().max_loops_response)
     key = (model, case.condition, case.given, case.modes)
     if key not in _TRIMS:
         aircraft = load_aircraft("uh60a")

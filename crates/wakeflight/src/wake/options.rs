@@ -145,6 +145,9 @@ pub struct WakeOptions {
     /// Whether a marker gets the velocity of the arc that its two chords lack.
     #[serde(default = "default::no")]
     pub curvature_correction: bool,
+    /// Whether the rates of the hub act on the free filaments; on blades and near wake they always do.
+    #[serde(default = "default::yes")]
+    pub rates: bool,
     /// Length of the near wake [rad]; a whole number of steps, 0: none.
     #[serde(default = "default::near_wake_angle")]
     pub near_wake_angle: f64,
@@ -220,6 +223,9 @@ mod default {
     pub fn no() -> bool {
         false
     }
+    pub fn yes() -> bool {
+        true
+    }
     pub fn zero() -> f64 {
         0.0
     }
@@ -274,6 +280,7 @@ impl WakeOptions {
             core_stretching: default::no(),
             core_distance: default::core_distance(),
             curvature_correction: default::no(),
+            rates: default::yes(),
             near_wake_angle: default::near_wake_angle(),
             near_wake_segments: default::near_wake_segments(),
             bound_core: default::quarter(),
@@ -439,6 +446,11 @@ pub struct HubMotion {
 }
 
 impl HubMotion {
+    /// Motion as the free filaments feel it: without rates where the options leave them out.
+    pub(crate) fn felt(self, options: &WakeOptions) -> Self {
+        if options.rates { self } else { HubMotion { rates: [0.0; 3], ..self } }
+    }
+
     /// Velocity of the air relative to the hub axes at `point` without induction: -velocity - rates x point [m/s].
     pub fn wind(&self, point: [f64; 3]) -> [f64; 3] {
         let (v, w, r) = (self.velocity, self.rates, point);

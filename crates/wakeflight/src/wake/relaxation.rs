@@ -112,7 +112,7 @@ impl<F: InducedVelocity> RelaxationWake<F> {
             return Err(WakeError::InputNotFinite { field: "blades_by_azimuth", index });
         }
         finite("circulation", circulation)?;
-        self.hub = hub;
+        self.hub = hub.felt(&self.options);
         self.circulation.copy_from_slice(circulation);
         let n_sheet = self.options.sheet_filaments();
         for (l, gamma) in circulation.chunks_exact(n_r).enumerate() {

@@ -118,6 +118,7 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
         circulation: &[f64],
     ) -> Result<StepReport, WakeError> {
         self.check_input(&hub, blades, circulation)?;
+        let hub = hub.felt(&self.options);
         let options = &self.options;
         let n_k = options.n_segments();
         let mut evaluations = 0;
