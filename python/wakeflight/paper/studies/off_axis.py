@@ -76,10 +76,10 @@ def response(runs: Runs, condition: str, way: str, variable: str) -> tuple[np.nd
 
 
 def ratio(runs: Runs, condition: str, way: str) -> tuple[float, float]:
-    """Roll gained by the end of revolution 4 [deg], and pitch over it."""
+    """Roll gained by the end of revolution 6 [deg], and pitch over it."""
     turns, roll = response(runs, condition, way, "roll")
     _, pitch = response(runs, condition, way, "pitch")
-    k = int(np.argmin(np.abs(turns - 4.0)))
+    k = int(np.argmin(np.abs(turns - 6.0)))
     return DEG * float(roll[k]), float(pitch[k] / roll[k])
 
 
@@ -92,10 +92,10 @@ def finding(runs: Runs) -> Finding:
             _, p = response(runs, condition, way, "p")
             rows.append([condition, way, f"{DEG * float(np.abs(p).max()):.2f}", f"{roll:.2f}", f"{share:+.3f}"])
     text = "; ".join(
-        f"{condition}: {found[condition, 'time marching'][1]:+.2f} with time marching, "
-        f"{found[condition, 'no rates in the wake'][1]:+.2f} without the rates, "
-        f"{found[condition, 'rigid blades'][1]:+.2f} with rigid blades, "
-        f"{found[condition, 'dynamic inflow'][1]:+.2f} with dynamic inflow"
+        f"{condition}: {found[condition, 'time marching'][1]:+.3f} with time marching, "
+        f"{found[condition, 'no rates in the wake'][1]:+.3f} without the rates, "
+        f"{found[condition, 'rigid blades'][1]:+.3f} with rigid blades, "
+        f"{found[condition, 'dynamic inflow'][1]:+.3f} with dynamic inflow"
         for condition in CONDITIONS
     )
     return Finding(
@@ -107,9 +107,9 @@ def finding(runs: Runs) -> Finding:
         "them); rigid blades have flap and lag "
         "hinges only.",
         figure(runs),
-        ("condition", "way", "peak p [deg/s]", "roll at revolution 4 [deg]", "pitch over roll"),
+        ("condition", "way", "peak p [deg/s]", "roll at revolution 6 [deg]", "pitch over roll"),
         rows,
-        f"Pitch over roll four revolutions after the start: {text}.",
+        f"Pitch over roll at the end of revolution 6: {text}.",
     )
 
 
