@@ -61,7 +61,7 @@ class Maneuver:
         if (self.revolutions is None) == (self.seconds is None):
             raise InputError.of("duration", self.name, "must be given either in revolutions or in seconds")
         length = self.revolutions if self.revolutions is not None else self.seconds
-        if not (math.isfinite(length) and 0.0 < length <= 10000.0):
+        if length is not None and not (math.isfinite(length) and 0.0 < length <= 10000.0):
             raise InputError.of("duration", length, "must lie above 0 and at most 10000")
         for name, value, unit in (("travel", self.travel_in, "in"), ("rotor_speed", self.rotor_speed, "rad/s")):
             if value is not None and not (math.isfinite(value) and value > 0.0):
@@ -78,8 +78,9 @@ class Maneuver:
 
         Revolutions that belong to another rotor speed become the next whole number that lasts as long.
         """
-        if self.revolutions is None:
+        if self.seconds is not None:
             return self.seconds * omega / (2.0 * math.pi)
+        assert self.revolutions is not None, "one of the two is given"
         if self.rotor_speed is None or abs(omega / self.rotor_speed - 1.0) < 1e-9:
             return self.revolutions
         return float(math.ceil(self.revolutions * omega / self.rotor_speed - 1e-6))
@@ -102,7 +103,8 @@ class Maneuver:
 
     def stick(self, t: float, trim_in: Sequence[float]) -> np.ndarray:
         """Sticks (4,) [in] from the stop at time `t` [s], about the trim sticks `trim_in` (4,) [in]."""
-        return np.asarray(trim_in, dtype=float) + self.offset(t)
+        sticks: np.ndarray = np.asarray(trim_in, dtype=float) + self.offset(t)
+        return sticks
 
     def rate(self, t: float) -> np.ndarray:
         """Stick rates (4,) [in/s] at time `t` [s]; at a corner the rate that follows."""
@@ -131,9 +133,9 @@ class Maneuver:
                 )
             corners_of.append((stick, corners))
         revolutions = self.revolutions
-        if revolutions is not None:
+        if self.revolutions is not None:
             revolutions = self.duration_revolutions(omega)
-            if revolutions != self.revolutions:
+            if self.rotor_speed is not None and revolutions != self.revolutions:
                 written = self.revolutions * 2.0 * math.pi / self.rotor_speed
                 adapted.append(
                     f"{self.name}: {self.revolutions:g} revolutions at {self.rotor_speed:g} rad/s last {written:.3f} s, which "
@@ -198,6 +200,7 @@ def arrested_descent(start: Any = None) -> Maneuver:
     if start is None:
         return maneuver
     first = quantity(start, "s", "start")
+    assert maneuver.rotor_speed is not None, "the shipped file says which rotor speed its revolutions belong to"
     end = maneuver.duration(maneuver.rotor_speed)
     if not 0.0 <= first < end:
         raise InputError.of("start", start, f"must lie between 0 s and the end of the manoeuvre, {end:.4g} s")

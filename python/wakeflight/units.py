@@ -136,4 +136,5 @@ def shown(value: float, unit: str) -> str:
 def _registry() -> Any:
     import pint
 
-    return pint.get_application_registry()
+    registry: Any = pint
+    return registry.get_application_registry()

@@ -144,8 +144,8 @@ class Aircraft:
         for i in range(len(stations) - 1):
             if stations[i] <= at <= stations[i + 1]:
                 share = (at - stations[i]) / (stations[i + 1] - stations[i])
-                return chords[i] + share * (chords[i + 1] - chords[i])
-        return chords[-1]
+                return float(chords[i] + share * (chords[i + 1] - chords[i]))
+        return float(chords[-1])
 
     @property
     def solidity(self) -> float:

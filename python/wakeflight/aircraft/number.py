@@ -40,23 +40,23 @@ class Number(float):
         number.provenance = provenance
         return number
 
-    def __getnewargs__(self) -> tuple[float, Provenance]:
+    def __getnewargs__(self) -> tuple[float, Provenance]:  # type: ignore[override]  # one more than float has
         """Arguments a copy is made with."""
         return float(self), self.provenance
 
 
-class Numbers(tuple):
+class Numbers(tuple[Any, ...]):
     """Several numbers in SI and radians (nested tuples for a matrix); `.provenance` is common to all."""
 
     provenance: Provenance
 
-    def __new__(cls, si: tuple, provenance: Provenance) -> Numbers:
+    def __new__(cls, si: tuple[Any, ...], provenance: Provenance) -> Numbers:
         """Keep `si` as the tuple itself."""
         numbers = super().__new__(cls, si)
         numbers.provenance = provenance
         return numbers
 
-    def __getnewargs__(self) -> tuple[tuple, Provenance]:
+    def __getnewargs__(self) -> tuple[tuple[Any, ...], Provenance]:
         """Arguments a copy is made with."""
         return tuple(self), self.provenance
 

@@ -1,4 +1,6 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
+# mypy: disable-error-code="valid-type"
+# annotations are made by calls (unit, range): types to pydantic, not to mypy
 """What a rotor file may hold: the rotor part of the aircraft format, alone, for a rotor on a stand.
 
 Keys are those of `[rotor]` in an aircraft file. A rigid blade (`flexible = false`) needs no structure: hinged, it needs

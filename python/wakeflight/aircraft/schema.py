@@ -1,4 +1,6 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
+# mypy: disable-error-code="valid-type"
+# annotations are made by calls (unit, range): types to pydantic, not to mypy
 """What an aircraft file may hold: components, their numbers and the allowed range of each.
 
 Presence is meaning: a group that is not in the file is a part the aircraft does not have. Only the

@@ -180,7 +180,7 @@ def curve(table: TableFile, x: str, x_unit: str, y: str, y_unit: str) -> dict[st
     return {"x": arguments, "y": table.column(y, y_unit)}
 
 
-def grid(table: TableFile, x: str, y: str, value: str, unit: str) -> dict[str, list]:
+def grid(table: TableFile, x: str, y: str, value: str, unit: str) -> dict[str, list[Any]]:
     """Bilinear function {x, y, values} in SI from a table in long form: one line for each pair of angles."""
     rows, columns = table.column(x, "rad"), table.column(y, "rad")
     values = table.column(value, unit)
@@ -192,7 +192,7 @@ def grid(table: TableFile, x: str, y: str, value: str, unit: str) -> dict[str, l
     return {"x": axis_x, "y": axis_y, "values": [[cells[a, b] for b in axis_y] for a in axis_x]}
 
 
-def by_mach(table: TableFile) -> dict[str, list]:
+def by_mach(table: TableFile) -> dict[str, list[Any]]:
     """Section coefficient {x, y, values}: alpha [rad] over +-180 deg, Mach from 0.3 or less (held below) to 0.9 or more."""
     alpha = table.column("alpha", "rad")
     ascending(table, "alpha", alpha)

@@ -91,22 +91,23 @@ def _run(
         where = {"speed": "0 kt", "shaft_angle": "0 deg", "climb": "0 m/s"} | given
         model = inflow_model(inflow) if not isinstance(inflow, str) else configured(aircraft, inflow, {}, where)
         return TunnelRun(chosen, given), Case(load_rotor(aircraft), model)
-    if not isinstance(aircraft, Aircraft):
-        raise InputError.of("aircraft", aircraft.name, "a rotor alone does not fly; allowed with it: tunnel")
     if stand:
         raise InputError.of("stand", ", ".join(stand), "belongs to the run tunnel")
     base = Case(aircraft, inflow_model(inflow))
     if run == "modes":
-        return ModesRun(aircraft.discretisation.n_modes), base
-    complete = condition_for(aircraft, condition)
+        return ModesRun(base.flying.discretisation.n_modes), base
+    complete = condition_for(base.flying, condition)
     if run == "trim":
         return TrimRun(chosen, complete), base
-    if isinstance(run, str):
-        try:
-            run = load_maneuver(run)
-        except InputError as reason:
-            if run.endswith(".toml"):
-                raise
-            allowed = f"allowed: trim, modes, tunnel, {', '.join(SHIPPED)}, or the path of a manoeuvre file (.toml)"
-            raise InputError.of("run", run, allowed) from reason
-    return FlightRun(chosen, complete, run, revolutions, integrator), base
+    maneuver = _maneuver(run) if isinstance(run, str) else run
+    return FlightRun(chosen, complete, maneuver, revolutions, integrator), base
+
+
+def _maneuver(run: str) -> Maneuver:
+    try:
+        return load_maneuver(run)
+    except InputError as reason:
+        if run.endswith(".toml"):
+            raise
+        allowed = f"allowed: trim, modes, tunnel, {', '.join(SHIPPED)}, or the path of a manoeuvre file (.toml)"
+        raise InputError.of("run", run, allowed) from reason

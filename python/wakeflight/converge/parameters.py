@@ -33,6 +33,13 @@ class Case:
     rtol: float = RTOL
     control_tolerance: float = CONTROL_TOLERANCE
 
+    @property
+    def flying(self) -> Aircraft:
+        """The aircraft; a rotor alone does not fly."""
+        if not isinstance(self.aircraft, Aircraft):
+            raise InputError.of("aircraft", self.aircraft.name, "a rotor alone does not fly; allowed with it: tunnel")
+        return self.aircraft
+
 
 @dataclass(frozen=True)
 class Parameter:

@@ -86,7 +86,9 @@ class Outcome:
 class Run(Protocol):
     """A run that can be repeated with other discretisations."""
 
-    quantities: tuple[Quantity, ...]
+    @property
+    def quantities(self) -> tuple[Quantity, ...]:
+        """What is compared."""
 
     @property
     def title(self) -> str:
@@ -109,13 +111,13 @@ class Trimming:
     def start(self, case: Case, inflow: Any, progress: Progress | Silent) -> tuple[Trim, Outcome]:
         """Trim of the case with an inflow model, and what it cost when it was made."""
         inflow = tightened(self.varied, inflow)
-        key = (case.aircraft.discretisation, inflow, case.n_harmonics, case.control_tolerance)
+        key = (case.flying.discretisation, inflow, case.n_harmonics, case.control_tolerance)
         for known, start, cost in self._known:
             if known == key:
                 return start, cost
         clock = _Clock()
         start = trim(
-            case.aircraft,
+            case.flying,
             self.condition,
             inflow=inflow,
             progress=progress,
@@ -211,12 +213,12 @@ class ModesRun:
 
     def check(self, case: Case) -> None:
         """As many modes as the elements can carry."""
-        blade_modes(case.aircraft, self.n_modes, case.aircraft.discretisation.n_elements)
+        blade_modes(case.flying, self.n_modes, case.flying.discretisation.n_elements)
 
     def outcome(self, case: Case, progress: Progress | Silent) -> Outcome:
         """Frequencies per revolution, ascending."""
         clock = _Clock()
-        found = blade_modes(case.aircraft, self.n_modes, case.aircraft.discretisation.n_elements)
+        found = blade_modes(case.flying, self.n_modes, case.flying.discretisation.n_elements)
         return Outcome(found.frequencies[None, :], np.zeros(1), *clock.read())
 
 
@@ -245,8 +247,8 @@ class FlightRun:
     def check(self, case: Case) -> None:
         """Compile the aircraft; the manoeuvre must fit its sticks."""
         model = build(case, self.trimming.condition)
-        flown = self.maneuver.for_aircraft(case.aircraft.stick_travel_in, model.omega)
-        flown.check_span(case.aircraft.stick_travel_in)
+        flown = self.maneuver.for_aircraft(case.flying.stick_travel_in, model.omega)
+        flown.check_span(case.flying.stick_travel_in)
         flown_steps(model, flown, self.revolutions)
 
     def outcome(self, case: Case, progress: Progress | Silent) -> Outcome:
@@ -290,13 +292,13 @@ def build(case: Case, condition: FlightCondition) -> Model:
     """The compiled model; what the physics core refuses becomes an error of the input."""
     from ..errors import InputError
 
-    case.inflow.step(case.aircraft)
+    case.inflow.step(case.flying)
     if not isinstance(case.inflow, DynamicInflow):
-        case.inflow.core_options(case.aircraft)
+        case.inflow.core_options(case.flying)
     try:
-        return Model.build(case.aircraft, condition, case.inflow)
+        return Model.build(case.flying, condition, case.inflow)
     except ValueError as reason:
-        raise InputError(f"{case.aircraft.path}: {reason}") from None
+        raise InputError(f"{case.flying.path}: {reason}") from None
 
 
 def unsolved(start: Trim) -> tuple[str, ...]:

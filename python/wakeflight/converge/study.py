@@ -67,7 +67,7 @@ class Study:
     def scales(self) -> np.ndarray:
         """What an error is compared with: the excursion of a history in the finest run, the value of a trim."""
         finest = self.samples[-1]
-        return np.max(np.abs(finest - finest[0]), axis=0) if self.is_history else np.abs(finest[0])
+        return np.asarray(np.max(np.abs(finest - finest[0]), axis=0) if self.is_history else np.abs(finest[0]))
 
     @property
     def data(self) -> xr.Dataset:

@@ -54,7 +54,7 @@ def _values(study: xr.Dataset) -> Figure:
         axes.set_ylabel(f"error, {GROUPS[unit]}")
     for axes in grid.ravel()[len(present) :]:
         axes.set_visible(False)
-    panels = grid.ravel()[: len(present)]
+    panels = list(grid.ravel())[: len(present)]
     _finish(panels, panels[-columns:], study)
     return drawn
 
@@ -98,7 +98,7 @@ def _curves(axes: Axes, study: xr.Dataset, error: str, names: Sequence[str], sca
             place, offset, rotation = ("data", "data"), (5, 3), 0
         else:  # the finest, whose error is not known: a line where its cost lies
             axes.axvline(seconds, color=style.GREY, linewidth=0.5, linestyle=":")
-            place, offset, rotation, value = ("data", "axes fraction"), (1, -2), 90, 1.0
+            place, offset, rotation, value = ("data", "axes fraction"), (1, -2), 90, np.float64(1.0)
         axes.annotate(
             str(setting),
             (seconds, value),

@@ -7,7 +7,7 @@ right-hand side, advancing side at the top.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -113,7 +113,7 @@ def tidy(bar: Colorbar, label: str, limits: tuple[float, float]) -> None:
 
 def mark_directions(axes: Axes) -> None:
     """Say where the nose is and how the azimuth counts."""
-    place = {"fontsize": 6.5, "color": style.GREY}
+    place: dict[str, Any] = {"fontsize": 6.5, "color": style.GREY}
     axes.text(-1.07, 0, "nose 180°", rotation=90, ha="right", va="center", **place)
     axes.text(1.07, 0, "tail ψ = 0", rotation=90, ha="left", va="center", **place)
     axes.text(0, 1.05, "advancing 90°", ha="center", va="bottom", **place)
@@ -167,7 +167,9 @@ def chosen_revolutions(run: xr.Dataset, revolutions: Sequence[float] | None, mos
     whole = sorted({round(float(mark)) for mark in marks if 2 <= round(float(mark)) <= last})
     if not whole:
         whole = sorted({round(n) for n in np.linspace(1, last, most + 1)} - {1})
-    pick = np.unique(np.round(np.linspace(0, len(whole) - 1, min(most, len(whole)))).astype(int)) if whole else []
+    if not whole:
+        return []
+    pick = np.unique(np.round(np.linspace(0, len(whole) - 1, min(most, len(whole)))).astype(int))
     return [float(whole[k]) for k in pick]
 
 

@@ -6,7 +6,7 @@ import base64
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..plotting import COMPARISONS, FIGURES, Plot
 from ..plotting.style import save
@@ -39,8 +39,8 @@ def write(
 
     out_dir = Path(out_dir)
     out_dir.mkdir(parents=True, exist_ok=True)
-    several = isinstance(runs, Mapping) and not hasattr(runs, "data_vars")
-    named = dict(runs) if several else {str(runs.attrs.get("inflow_model", "run")): runs}
+    named = _named(runs)
+    several = not hasattr(runs, "data_vars")
     first = next(iter(named.values()))
     environment = Environment(
         loader=PackageLoader("wakeflight.report", "templates"),
@@ -63,6 +63,13 @@ def write(
     path = out_dir / "report.html"
     path.write_text(page, encoding="utf-8")
     return path
+
+
+def _named(runs: Any) -> dict[str, xr.Dataset]:
+    """Runs by name; a single one goes by its inflow model (a Dataset is a mapping too)."""
+    if hasattr(runs, "data_vars"):
+        return {str(runs.attrs.get("inflow_model", "run")): runs}
+    return dict(runs)
 
 
 def _title(run: xr.Dataset, several: bool) -> str:
