@@ -33,6 +33,8 @@ class Quantity(NamedTuple):
 
 
 DEGREES = 180.0 / np.pi
+UNSOLVED = 1e-3
+"""Residual of the circulation over its largest value from which a trim is said not to be solved."""
 
 TRIM_QUANTITIES = (
     Quantity("power", "hp", 1.0 / HORSEPOWER),
@@ -308,8 +310,8 @@ def unsolved(start: Trim) -> tuple[str, ...]:
     model, wake = start.model, start.wake
     q, q_dot = model.core.trim_motion(start.problem, start.x, wake.n)
     held = (start.state(), start.stick_si, np.zeros(4), wake.psi, q, q_dot, wake.lambda_far, wake.circulation)
-    _, _, residual, failed = model.core.solve_circulation(model.wake_options, *held)
-    if not failed:
+    circulation, _, residual, failed = model.core.solve_circulation(model.wake_options, *held)
+    if not failed or residual < UNSOLVED * float(np.abs(circulation).max()):
         return ()
     return (f"circulation and near wake do not agree at {failed} of {wake.n} azimuths, by {residual:.2g} m2/s",)
 
