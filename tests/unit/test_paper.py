@@ -36,7 +36,8 @@ def test_a_difference_below_the_resolution_orders_nothing():
 def test_nothing_differs_between_compared_runs_but_what_is_compared():
     base = {case.name: case.inflow for case in cases.base_cases()}
     shared = set(vars(cases.MODELS["relaxation"])) & set(vars(cases.MODELS["time-marching"]))
-    for name in shared:
+    # how often the flight dynamics get a new inflow is what the paper's two wakes differ by
+    for name in shared - {"update_interval"}:
         assert getattr(cases.MODELS["relaxation"], name) == getattr(cases.MODELS["time-marching"], name)
     for case in cases.question_cases():
         reference = base[f"{case.maneuver}/{case.inflow.name}"]
