@@ -133,6 +133,10 @@ class Recorder:
         arrays |= {name: values[:n] for name, values in self.scalars.items() if name != "load_power"}
         if not np.any(np.isfinite(arrays["vortex_blade_distance"])):
             del arrays["vortex_blade_distance"]
+        elif np.isnan(arrays["vortex_blade_distance"][0]):
+            # without a convergence phase the wake has not been stepped yet: the first step's stands for the start
+            late = arrays["vortex_blade_distance"][1:]
+            arrays["vortex_blade_distance"] = np.concatenate([late[:1], late])
         arrays["energy_balance"] = self.energy_balance()
         alpha, mach = self.blade["alpha"][:n], self.blade["mach"][:n]
         arrays |= {"alpha_min": alpha.min(axis=(1, 2)), "alpha_max": alpha.max(axis=(1, 2))}

@@ -160,3 +160,10 @@ def test_a_scheduled_stabilator_moves_no_faster_than_its_servo(baseline_dynamic)
     assert rate.max() == pytest.approx(7.0, rel=1e-6)
     # the pitch-up and the raised collective ask for more incidence
     assert incidence[-1] > incidence[0] + 1.0
+
+
+def test_a_flight_without_a_convergence_phase_is_recorded(baseline_relaxation):
+    # the wake has not been stepped when the first record is made
+    wake = wf.TimeMarchingWake(convergence_revolutions=0)
+    data = wf.fly(baseline_relaxation, wf.arrested_descent(), inflow=wake, revolutions=0.25).data
+    assert np.all(np.isfinite(data["vortex_blade_distance"].values))
