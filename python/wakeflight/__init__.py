@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from .trim import Trim, trim
     from .tunnel import Tunnel, tunnel
     from .vortex import induced_velocity
+    from .wing import Wing, wing
 
 _HOME = {
     "Aircraft": "aircraft",
@@ -58,6 +59,8 @@ _HOME = {
     "Tunnel": "tunnel",
     "tunnel": "tunnel",
     "induced_velocity": "vortex",
+    "Wing": "wing",
+    "wing": "wing",
 }
 
 __all__ = [
@@ -74,6 +77,7 @@ __all__ = [
     "Trim",
     "Tunnel",
     "WakeflightError",
+    "Wing",
     "__version__",
     "arrested_descent",
     "bibtex",
@@ -89,6 +93,7 @@ __all__ = [
     "roll_reversal",
     "trim",
     "tunnel",
+    "wing",
 ]
 
 

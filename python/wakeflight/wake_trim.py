@@ -37,6 +37,7 @@ class WakeInTrim:
         self.relaxation: _core.RelaxationWake | None = None
         self.converged = False
         self.last: dict[str, float] = {}
+        self.not_converged = 0
         self.counters = {
             "relaxation_iterations": 0,
             "wake_segment_evaluations": 0,
@@ -90,6 +91,7 @@ class WakeInTrim:
                 "geometry_change": float(norms[-1, 0]),
                 "first_turn_change": float(norms[-1, 1]),
                 "iterations": iteration + 1,
+                "circulation_not_converged": self.not_converged,
             }
             if (
                 rms < options.inflow_tolerance
@@ -123,6 +125,7 @@ class WakeInTrim:
             self.model.wake_options, y, stick, np.zeros(len(stick)), self.psi, q, q_dot, self.lambda_far, start
         )
         self.counters["circulation_not_converged"] += failed
+        self.not_converged = failed
 
     def _thrust(self) -> float:
         """Thrust but for constant factors: integral of circulation times radius."""

@@ -137,6 +137,23 @@ def test_a_wake_of_three_blades_and_its_velocity(tmp_path):
     assert velocity.shape == (2, 3) and np.all(velocity[:, 2] < 0)
 
 
+def test_weissinger_wings_have_the_known_lift():
+    slope = wf.wing(6.0, 1.0, "5.7106 deg").cl / np.radians(5.7106)
+    assert slope == pytest.approx(4.1743, abs=1e-4)
+    line = wf.wing(6.0, 1.0, "0.1 rad", blade_model="lifting-line").cl / np.sin(0.1)
+    assert line == pytest.approx(4.53042499, rel=3e-4)
+
+
+def test_weissinger_lifts_less_than_the_lifting_line_on_a_short_blade():
+    # flow tangency at 3/4 chord: some per cent less lift at an aspect ratio of six, the same rotor otherwise
+    wake = wf.RelaxationWake(turns=2, far_wake_turns=2, relaxation=0.3, n_stations=12)
+    line = wf.tunnel(CARADONNA, inflow=wake)
+    weissinger = wf.tunnel(CARADONNA, inflow=wake, blade_model="weissinger")
+    assert 0.85 < weissinger.ct / line.ct < 0.98
+    with pytest.raises(wf.InputError, match="free wake"):
+        wf.tunnel(CARADONNA, inflow="dynamic", blade_model="weissinger")
+
+
 @pytest.mark.parametrize(
     ("given", "named"),
     [

@@ -10,6 +10,7 @@ use std::f64::consts::TAU;
 use wakeflight::blade::aerodynamics::Air;
 use wakeflight::blade::loads::BladeInflow;
 use wakeflight::blade::model::Discretisation;
+use wakeflight::blade::thin_section::ThinSection;
 use wakeflight::inflow::pitt_peters::PittPeters;
 use wakeflight::rotor::circulation::BladeInstant;
 use wakeflight::rotor::data::RotorData;
@@ -84,7 +85,8 @@ pub(crate) fn hub_state(y: &[f64]) -> PyResult<([f64; 3], [f64; 3])> {
 
 #[pymethods]
 impl PyStand {
-    /// From the JSON of the rotor data, air, weight, discretisation; `free_wake` switches the tip loss off.
+    /// From the JSON of the rotor data, air, weight, discretisation; `free_wake` switches the tip loss off, `thin_sections`
+    /// (with or without the Prandtl-Glauert factor) makes the blade a Weissinger one.
     #[new]
     #[allow(clippy::too_many_arguments, reason = "the fields of the discretisation")]
     fn new(
@@ -99,12 +101,14 @@ impl PyStand {
         n_stations: usize,
         reference_pitch: f64,
         higher: Vec<(usize, f64, f64)>,
+        thin_sections: Option<bool>,
     ) -> PyResult<Self> {
         let data: RotorData = serde_json::from_str(data_json).map_err(invalid)?;
         let discretisation = Discretisation { n_elements, n_modes, n_gauss, n_stations, reference_pitch };
         let rigging = Rigging { matrix: [[0.0; 4]; 4], offset: [0.0; 4], phase: 0.0 };
         let tip_loss_factor = if free_wake { 1.0 } else { data.tip_loss_factor };
-        let rotor = Rotor::new(&data, rigging, tip_loss_factor, &discretisation).map_err(invalid)?;
+        let mut rotor = Rotor::new(&data, rigging, tip_loss_factor, &discretisation).map_err(invalid)?;
+        rotor.thin = thin_sections.map(|factor| ThinSection::of(&data.airfoil, factor));
         let air = Air { density, speed_of_sound };
         let inner = Stand { rotor, air, gravity, pitt_peters: PittPeters::default() };
         let higher =
@@ -214,7 +218,8 @@ impl PyStand {
         (flap.into_pyarray(py), lead.into_pyarray(py))
     }
 
-    /// Circulation and near wake solved together; the arguments and answers of `Aircraft.solve_circulation`.
+    /// Circulation and near wake solved together; the arguments and answers of `Aircraft.solve_circulation`, but that the
+    /// inflow of thin sections has two values per station, at a quarter and at three quarters of the chord.
     #[allow(clippy::too_many_arguments, clippy::type_complexity, reason = "one call per exchange")]
     fn solve_circulation<'py>(
         &self,
@@ -250,8 +255,9 @@ impl PyStand {
             .detach(|| self.inner.rotor.circulations(self.inner.air, &options, &hub, &instants, &far, &start))
             .map_err(|e| PyArithmeticError::new_err(e.to_string()))?;
         let n = self.inner.rotor.blade.stations.len();
-        let shape = |v| Array::from_shape_vec((instants.len(), n), v).map_err(invalid);
-        let (gamma, inflow) = (shape(all.gamma)?, shape(all.inflow)?);
+        let width = if self.inner.rotor.thin.is_some() { 2 * n } else { n };
+        let shape = |m, v| Array::from_shape_vec((instants.len(), m), v).map_err(invalid);
+        let (gamma, inflow) = (shape(n, all.gamma)?, shape(width, all.inflow)?);
         Ok((gamma.into_pyarray(py), inflow.into_pyarray(py), all.residual, all.not_converged))
     }
 
@@ -295,7 +301,8 @@ impl PyStand {
         let psi = psi.as_slice()?;
         let n = stand.rotor.blade.stations.len();
         let held: Option<Vec<f64>> = inflow.map(|map| map.as_array().iter().copied().collect());
-        if held.as_ref().is_some_and(|map| map.len() != psi.len() * n) {
+        let width = held.as_ref().map_or(n, |map| map.len() / psi.len().max(1));
+        if held.as_ref().is_some_and(|map| map.len() != psi.len() * width) || !self.fits(width) {
             return Err(invalid(format!("inflow must have the shape ({}, {n})", psi.len())));
         }
         if held.is_none() && matches!(problem.0.inflow, StandInflow::Map(_)) {
@@ -309,7 +316,7 @@ impl PyStand {
         for (row, &azimuth) in psi.iter().enumerate() {
             let blade = stand.instant(&problem.0, &x, azimuth);
             let given = match &held {
-                Some(map) => BladeInflow::Stations(&map[row * n..(row + 1) * n]),
+                Some(map) => stand.rotor.held_inflow(&map[row * width..(row + 1) * width]),
                 None => BladeInflow::Disk([x[i], x[i + 1], x[i + 2]]),
             };
             let b = stand.rotor.blade_loads(stand.air, &hub, azimuth, &blade.modal, &blade.control, &given);
@@ -345,14 +352,20 @@ impl PyStand {
 }
 
 impl PyStand {
+    /// Whether a row of inflow may have this length: one value per station, or two with thin sections.
+    fn fits(&self, width: usize) -> bool {
+        let n = self.inner.rotor.blade.stations.len();
+        width == n || (width == 2 * n && self.inner.rotor.thin.is_some())
+    }
+
     /// The unknowns, of the right number.
     fn unknowns(&self, problem: &PyStandProblem, x: &PyReadonlyArray1<f64>) -> PyResult<Vec<f64>> {
         let n = self.inner.layout(&problem.0).len();
-        let rows = self.inner.rotor.blade.stations.len() * problem.0.n_azimuths;
-        if let StandInflow::Map(map) = &problem.0.inflow
-            && map.len() != rows
-        {
-            return Err(invalid(format!("inflow map has {} values, {rows} needed", map.len())));
+        if let StandInflow::Map(map) = &problem.0.inflow {
+            let width = map.len() / problem.0.n_azimuths;
+            if !self.fits(width) || map.len() != width * problem.0.n_azimuths {
+                return Err(invalid(format!("inflow map has {} values for each azimuth", width)));
+            }
         }
         let x = x.as_slice()?.to_vec();
         if x.len() != n { Err(invalid(format!("{} unknowns, {n} needed", x.len()))) } else { Ok(x) }

@@ -4,6 +4,7 @@ use numpy::ndarray::Array;
 use numpy::{Element, IntoPyArray, PyArray2, PyArray3, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::{PyArithmeticError, PyValueError};
 use pyo3::prelude::*;
+use wakeflight::wake::lifting_surface::{ControlLine, wing_circulation as wing_circulation_of};
 use wakeflight::wake::{self, BladeState, HubMotion, StepReport, WakeError, WakeOptions};
 
 /// Input at fault: ValueError; numerical failure: ArithmeticError.
@@ -73,6 +74,23 @@ fn near_wake_matrix<'py>(
         .detach(|| wake::near_wake_matrix(&options, &hub, &BladeState { psi, flap, lead }))
         .map_err(py_error)?;
     matrix(py, values, options.n_stations)
+}
+
+/// Circulation over speed (n) [m] of a flat wing: edges (n + 1), stations, chords (n) [m], angle of attack [rad]; control points at
+/// three quarters of the chord (Weissinger) or on the bound line.
+#[pyfunction]
+fn wing_circulation<'py>(
+    py: Python<'py>,
+    edges: PyReadonlyArray1<'_, f64>,
+    stations: PyReadonlyArray1<'_, f64>,
+    chords: PyReadonlyArray1<'_, f64>,
+    alpha: f64,
+    weissinger: bool,
+) -> PyResult<Bound<'py, numpy::PyArray1<f64>>> {
+    let line = if weissinger { ControlLine::ThreeQuarter } else { ControlLine::Quarter };
+    let gamma = wing_circulation_of(edges.as_slice()?, stations.as_slice()?, chords.as_slice()?, alpha, line)
+        .map_err(py_error)?;
+    Ok(gamma.into_pyarray(py))
 }
 
 /// Periodic wake of a steady flight condition.
@@ -309,5 +327,6 @@ impl TimeMarchingWake {
 pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_class::<RelaxationWake>()?;
     m.add_class::<TimeMarchingWake>()?;
+    m.add_function(wrap_pyfunction!(wing_circulation, m)?)?;
     m.add_function(wrap_pyfunction!(near_wake_matrix, m)?)
 }

@@ -58,6 +58,8 @@ def tunnel(
     density: Any = None,
     speed_of_sound: Any = None,
     blades: str | None = None,
+    blade_model: str = "lifting-line",
+    prandtl_glauert: bool = True,
     n_harmonics: int = 8,
     revolutions: int | None = None,
     averaged: int | None = None,
@@ -90,6 +92,9 @@ def tunnel(
     omega, rpm : rotor speed, as text with a unit or as a number of revolutions per minute; the rotor's own.
     altitude, density, speed_of_sound : standard atmosphere, and what a tunnel states instead.
     blades : `rigid` takes flexibility away: blades move about their hinges alone, or not at all where clamped.
+    blade_model : `lifting-line` with the section tables, or `weissinger`: flow tangency at three quarters of the chord,
+        thin sections (2 pi), `prandtl_glauert` factor; drag and moment from the tables at the angle of the same lift. It has
+        no stall and no meaning in reverse flow, and needs a free wake.
     n_harmonics : harmonics of the blade motion.
     revolutions, averaged : revolutions of the marching wake and, of them, the last ones in the means; defaults
         12 and 4 forward, 24 and 12 in hover, 40 and 20 in axial descent. Ends early where the wake is periodic.
@@ -110,7 +115,8 @@ def tunnel(
     }
     rotor, condition, model = _prepared(aircraft, inflow, given)
     options = _marching_options(revolutions, averaged, model)
-    simple, wake = _compiled(rotor, condition, model, n_harmonics)
+    thin = bool(prandtl_glauert) if blade_model == "weissinger" else None
+    simple, wake = _compiled(rotor, condition, model, n_harmonics, thin)
     progress.phase("rotor on the stand", None)
     found = solution(simple, wake, options, progress)
     return Tunnel(found, time.perf_counter() - started)
@@ -176,8 +182,16 @@ def _prepared(aircraft: Any, inflow: Any, given: dict[str, Any]) -> tuple[Rotor,
     )
     model = stand_inflow(inflow, condition.regime(rotor.omega * rotor.radius))
     model.step(rotor)
+    if given["blade_model"] not in ("lifting-line", "weissinger"):
+        raise InputError.of("blade_model", given["blade_model"], "allowed: lifting-line, weissinger")
+    if not isinstance(given["prandtl_glauert"], bool):
+        raise InputError.of("prandtl_glauert", given["prandtl_glauert"], "must be True or False")
     if not isinstance(model, DynamicInflow):
         model.core_options(rotor)
+        if given["blade_model"] == "weissinger" and model.near_wake_angle == 0.0:
+            raise InputError.of("near_wake_angle", "0 deg", "a Weissinger blade needs a near wake")
+    elif given["blade_model"] == "weissinger":
+        raise InputError.of("blade_model", "weissinger", "needs a free wake: inflow relaxation or time-marching")
     return rotor, condition, model
 
 
@@ -195,7 +209,7 @@ def _marching_options(revolutions: Any, averaged: Any, model: InflowModel) -> di
 
 
 def _compiled(
-    rotor: Rotor, condition: StandCondition, model: InflowModel, n_harmonics: int
+    rotor: Rotor, condition: StandCondition, model: InflowModel, n_harmonics: int, thin_sections: bool | None
 ) -> tuple[StandModel, StandModel | None]:
     """The rotor with dynamic inflow, and with the free wake where that is asked for."""
     dynamic = model
@@ -210,7 +224,7 @@ def _compiled(
             simple = StandModel.build(rotor, condition, dynamic, n_harmonics)
         if dynamic is model:
             return simple, None
-        return simple, StandModel.build(rotor, condition, model, n_harmonics)
+        return simple, StandModel.build(rotor, condition, model, n_harmonics, thin_sections)
     except ValueError as reason:
         if isinstance(reason, InputError):
             raise

@@ -50,10 +50,19 @@ class StandModel(CompiledRotor):
     inflow: InflowModel
     core: _core.Stand
     n_harmonics: int
+    thin_sections: bool | None = None
+    """None: lifting line with section tables; otherwise Weissinger, with (True) or without Prandtl-Glauert factor."""
     n_controls: ClassVar[int] = 3
 
     @classmethod
-    def build(cls, rotor: Rotor, condition: StandCondition, inflow: InflowModel, n_harmonics: int) -> StandModel:
+    def build(
+        cls,
+        rotor: Rotor,
+        condition: StandCondition,
+        inflow: InflowModel,
+        n_harmonics: int,
+        thin_sections: bool | None = None,
+    ) -> StandModel:
         """Compile; the tip loss is off with a free wake. Gravity acts down the shaft."""
         d = rotor.discretisation
         inflow.step(rotor)
@@ -69,8 +78,9 @@ class StandModel(CompiledRotor):
             inflow.n_stations,
             d.reference_pitch,
             list(condition.higher),
+            thin_sections,
         )
-        return cls(rotor, condition, inflow, core, n_harmonics)
+        return cls(rotor, condition, inflow, core, n_harmonics, thin_sections)
 
     def problem(self, inflow_map: np.ndarray | None) -> _core.StandProblem:
         """The equations on a held inflow map (n_azimuths, n_stations), or with dynamic inflow."""

@@ -73,7 +73,7 @@ class Tunnel:
 
     def _passages(self, name: str) -> tuple[np.ndarray, np.ndarray]:
         rows = np.concatenate([turn.rows for turn in self._kept])
-        values = np.concatenate([turn.inflow if name == "inflow" else turn.passages[name] for turn in self._kept])
+        values = np.concatenate([turn.passages[name] for turn in self._kept])
         return rows, values
 
     def _spread(self, name: str) -> np.ndarray:
@@ -379,6 +379,8 @@ class Tunnel:
             "solidity": m.aircraft.solidity,
             "density": c.density,
             "speed_of_sound": c.speed_of_sound,
+            "blade_model": "lifting-line" if m.thin_sections is None else "weissinger",
+            "prandtl_glauert": int(bool(m.thin_sections)),
             "blades": "flexible" if m.aircraft.flexible else "rigid",
             "n_modes": m.aircraft.discretisation.n_modes,
             "blade_frequencies_per_rev": [f / m.omega for f in m.rotor["frequencies"]],
@@ -413,7 +415,10 @@ class Tunnel:
                 f"{c.regime(m.tip_speed)}, mu = {c.mu(m.tip_speed):.4f}, mu_z = {c.mu_z(m.tip_speed):+.4f} (descent +), "
                 f"{np.linalg.norm(velocity):.2f} m/s, {m.omega * 30 / np.pi:.1f} rpm, {c.density:.4f} kg/m3",
             ),
-            ("inflow model", m.inflow.name),
+            (
+                "inflow, blade model",
+                f"{m.inflow.name}, {'lifting line with section tables' if m.thin_sections is None else 'Weissinger'}",
+            ),
             ("theta_0, 1c, 1s", f"{deg(self.theta_0):.3f}, {deg(self.theta_1c):.3f}, {deg(self.theta_1s):.3f} deg"),
             ("C_T, C_T/sigma", f"{self.ct:.6f}, {self.ct / sigma:.4f}{scatter}"),
             ("C_Q, figure of merit", f"{self.cq:.7f}, {self.figure_of_merit:.4f}"),

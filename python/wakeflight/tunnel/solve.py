@@ -181,6 +181,10 @@ def on_relaxation(model: StandModel, start: Solution, progress: Progress | Silen
         problem = model.problem(inflow_map)
         x = solve_equations(model, problem, x)
     notes = []
+    if wake.last.get("circulation_not_converged"):
+        notes.append(
+            f"circulation and near wake do not agree at {wake.last['circulation_not_converged']} of {wake.n} azimuths"
+        )
     if not settled:
         last = history[-1]
         notes.append(
@@ -251,8 +255,10 @@ def on_marching(
         run.problem, run.x, run.inflow_map = problem, x, new_map
         run.circulation = by_azimuth(turned.rows, turned.passages["circulation"], march.n)
         run.averaged = min(n_mean, len(run.revolutions))
-        rms = float(np.sqrt(np.mean(((new_map - last_map) ** 2) @ model.area_weights)))
-        relative = rms / max(abs(model.disk_mean(new_map)), 1e-6)
+        # a Weissinger blade holds a second inflow behind that of the stations
+        change = (new_map - last_map)[:, : model.stations.size]
+        rms = float(np.sqrt(np.mean((change**2) @ model.area_weights)))
+        relative = rms / max(abs(model.disk_mean(new_map[:, : model.stations.size])), 1e-6)
         last_map = new_map
         before = x
         problem = model.problem(held)
@@ -325,6 +331,6 @@ def solution(
         regime = model.condition.regime(model.tip_speed)
         if regime != "forward":
             relaxation = replace(relaxation, relaxation=REGIME_OPTIONS[regime]["relaxation"])
-        relaxed = StandModel.build(model.aircraft, model.condition, relaxation, model.n_harmonics)
+        relaxed = StandModel.build(model.aircraft, model.condition, relaxation, model.n_harmonics, model.thin_sections)
     found = on_relaxation(relaxed, start, progress)
     return on_marching(model, found, progress, **options) if model.is_marching else found

@@ -63,7 +63,7 @@ pub fn section_air<S: Real>(
     wind: Vec3<S, BladeAxes>,
     omega: Vec3<S, BladeAxes>,
 ) -> SectionAir<S> {
-    let (c, n, t) = (motion.c, motion.n, motion.t);
+    let (c, n) = (motion.c, motion.n);
     // the chord point at distance d ahead moves with omega x (d c): components along c and n
     let spin = omega.cross(c);
     let (wind_c, wind_n) = (wind.dot(c), wind.dot(n));
@@ -73,7 +73,25 @@ pub fn section_air<S: Real>(
 
     let SectionFlow { alpha, speed, mach, cl, cd, cm } =
         section_flow(airfoil, air, wind_c, quarter_n, three_quarter_n);
+    section_loads(air, station, motion, wind_c, quarter_n, speed, omega, alpha, mach, [cl, cd, cm])
+}
 
+/// Loads of a section from its coefficients (cl, cd, cm) and the wind at the quarter chord along chord and normal.
+#[allow(clippy::too_many_arguments, reason = "what a section feels")]
+#[inline(always)]
+pub fn section_loads<S: Real>(
+    air: &Air,
+    station: &StationGeometry,
+    motion: &SectionMotion<S>,
+    wind_c: S,
+    quarter_n: S,
+    speed: S,
+    omega: Vec3<S, BladeAxes>,
+    alpha: S,
+    mach: S,
+    [cl, cd, cm]: [S; 3],
+) -> SectionAir<S> {
+    let (c, n, t) = (motion.c, motion.n, motion.t);
     let half_rho_c = 0.5 * air.density * station.chord;
     // lift is perpendicular to the wind, drag along it
     let lift = cl * speed * (half_rho_c * station.lift_width);

@@ -9,6 +9,7 @@ use super::aerodynamics::{Air, SectionAir, SectionWind, section_air};
 use super::kinematics::{BladeAxes, ModalMotion, PitchMotion, SectionMotion, combine};
 use super::model::{AeroStation, Blade, StructuralPoint};
 use super::strain::add_strain_gradient;
+use super::thin_section::ThinSection;
 use crate::airfoil::Airfoil;
 use crate::numerics::frames::{Hub, Vec3};
 use crate::numerics::scalar::Real;
@@ -48,6 +49,22 @@ pub enum BladeInflow<'a, S> {
     Stations(&'a [f64]),
     /// One value per station, with derivatives.
     Variable(&'a [S]),
+    /// Thin sections: one value per station at three quarters of the chord, with derivatives.
+    ThreeQuarter {
+        /// Law of the sections.
+        law: ThinSection,
+        /// Inflow.
+        inflow: &'a [S],
+    },
+    /// Thin sections, held: inflow at the quarter chord turns the lift, that at three quarters makes it.
+    TwoLines {
+        /// Law of the sections.
+        law: ThinSection,
+        /// Inflow at the quarter chord.
+        quarter: &'a [f64],
+        /// Inflow at three quarters, less that of the section's own bound vortex in two dimensions.
+        three_quarter: &'a [f64],
+    },
     /// No air at all.
     Vacuum,
 }
@@ -390,7 +407,19 @@ impl Blade {
         let wind = -(carrier.velocity + carrier.omega.cross(m.position) + m.velocity)
             - carrier.up * (lambda * tip_speed);
         let omega = carrier.omega + m.omega;
-        let air = section_air(environment.airfoil, &environment.air, &station.geometry, &m, wind, omega);
+        let (airfoil, air, geometry) = (environment.airfoil, &environment.air, &station.geometry);
+        let thin = match inflow {
+            BladeInflow::ThreeQuarter { law, .. } => Some((law, wind)),
+            BladeInflow::TwoLines { law, quarter, three_quarter } => {
+                let more = (three_quarter[j] - quarter[j]) * tip_speed;
+                Some((law, wind - carrier.up.scaled(more)))
+            }
+            _ => None,
+        };
+        let air = match thin {
+            None => section_air(airfoil, air, geometry, &m, wind, omega),
+            Some((law, behind)) => law.air(airfoil, air, geometry, &m, wind, behind, omega),
+        };
         (m, air)
     }
 
@@ -409,6 +438,8 @@ impl Blade {
             }
             BladeInflow::Stations(values) => S::cst(values[j]),
             BladeInflow::Variable(values) => values[j],
+            BladeInflow::ThreeQuarter { inflow, .. } => inflow[j],
+            BladeInflow::TwoLines { quarter, .. } => S::cst(quarter[j]),
             BladeInflow::Vacuum => S::zero(),
         }
     }

@@ -13,6 +13,7 @@ pub mod modes;
 pub mod quadrature;
 pub mod section;
 pub mod strain;
+pub mod thin_section;
 
 /// Most modes a blade may keep.
 pub const MAX_MODES: usize = 12;

@@ -5,11 +5,12 @@
 use super::hub::Rotor;
 use crate::blade::aerodynamics::{Air, SectionWind};
 use crate::blade::kinematics::{ModalMotion, PitchMotion};
-use crate::blade::loads::HubMotion;
-use crate::numerics::scalar::Dual;
+use crate::blade::loads::{BladeInflow, HubMotion};
+use crate::blade::thin_section::ThinSection;
+use crate::numerics::scalar::{Dual, Real};
 use crate::wake::{
     BladeState, CirculationSolution, HubMotion as WakeHub, WakeError, WakeOptions, near_wake_matrix,
-    solve_circulation,
+    solve_circulation, weissinger_matrix,
 };
 
 /// Circulation of several blade instants, each solved with its near wake.
@@ -17,7 +18,8 @@ use crate::wake::{
 pub struct Circulations {
     /// Bound circulation (n_instants, n_stations) [m2/s].
     pub gamma: Vec<f64>,
-    /// Total induced inflow that belongs to it (n_instants, n_stations).
+    /// Total induced inflow that belongs to it (n_instants, n_stations); thin sections: each row followed by the inflow at
+    /// three quarters of the chord (n_instants, 2 n_stations).
     pub inflow: Vec<f64>,
     /// Largest residual [m2/s].
     pub residual: f64,
@@ -47,7 +49,10 @@ impl Rotor {
         circulation: &mut [f64],
         slope: &mut [f64],
     ) {
-        self.circulation_of(air, &self.section_winds(hub, blade), lambda, circulation, slope);
+        match self.thin {
+            Some(law) => self.thin_circulation(law, air, hub, blade, lambda, circulation, slope),
+            None => self.circulation_of(air, &self.section_winds(hub, blade), lambda, circulation, slope),
+        }
     }
 
     fn section_winds(&self, hub: &HubMotion<f64>, blade: &BladeInstant) -> Vec<SectionWind> {
@@ -71,6 +76,47 @@ impl Rotor {
         }
     }
 
+    /// The same of thin sections, `lambda` at three quarters of the chord.
+    #[allow(clippy::too_many_arguments, reason = "the physical inputs of one blade")]
+    fn thin_circulation(
+        &self,
+        law: ThinSection,
+        air: Air,
+        hub: &HubMotion<f64>,
+        blade: &BladeInstant,
+        lambda: &[f64],
+        circulation: &mut [f64],
+        slope: &mut [f64],
+    ) {
+        type D = Dual<1>;
+        // a station's circulation depends on its own inflow alone: one direction serves all
+        let inflow: Vec<D> = lambda.iter().map(|&l| D::variable(l, 0)).collect();
+        let constant = |m: [f64; crate::blade::MAX_MODES]| m.map(D::cst);
+        let modal = ModalMotion {
+            q: constant(blade.modal.q),
+            q_dot: constant(blade.modal.q_dot),
+            q_ddot: constant(blade.modal.q_ddot),
+        };
+        let c = &blade.control;
+        let control = PitchMotion {
+            theta: D::cst(c.theta),
+            theta_dot: D::cst(c.theta_dot),
+            theta_ddot: D::cst(c.theta_ddot),
+        };
+        self.blade_air(
+            air,
+            &hub.constant(),
+            blade.psi,
+            &modal,
+            &control,
+            &BladeInflow::ThreeQuarter { law, inflow: &inflow },
+            |j, section, _| {
+                circulation[j] = section.circulation.re;
+                slope[j] = section.circulation.eps[0];
+            },
+        );
+    }
+
     /// Circulation and total inflow of one blade for the held far inflow and the near-wake matrix (n, n).
     pub fn blade_circulation(
         &self,
@@ -83,8 +129,22 @@ impl Rotor {
     ) -> Result<CirculationSolution, WakeError> {
         let radius = self.blade.radius;
         // slopes are kept between -3 c and 0 (per tip speed): beyond stall the sign would turn Newton away
+        let steepest = if self.thin.is_some() { -8.0 } else { -3.0 };
         let floor: Vec<f64> =
-            self.blade.stations.iter().map(|s| -3.0 * s.geometry.chord * self.tip_speed()).collect();
+            self.blade.stations.iter().map(|s| steepest * s.geometry.chord * self.tip_speed()).collect();
+        let tolerance = 1e-8 * self.omega * radius * radius;
+        if let Some(law) = self.thin {
+            return solve_circulation(
+                lambda_far,
+                near_wake,
+                |lambda, circulation, slope| {
+                    self.thin_circulation(law, air, hub, blade, lambda, circulation, slope);
+                },
+                start,
+                &floor,
+                tolerance,
+            );
+        }
         // the motion of the sections does not change while the circulation is sought
         let winds = self.section_winds(hub, blade);
         solve_circulation(
@@ -93,7 +153,7 @@ impl Rotor {
             |lambda, circulation, slope| self.circulation_of(air, &winds, lambda, circulation, slope),
             start,
             &floor,
-            1e-8 * self.omega * radius * radius,
+            tolerance,
         )
     }
 
@@ -109,15 +169,28 @@ impl Rotor {
     ) -> Result<Circulations, WakeError> {
         let n = self.blade.stations.len();
         let wake_hub = WakeHub { velocity: hub.velocity.array(), rates: hub.omega.array() };
+        let chords: Vec<f64> = self.blade.stations.iter().map(|s| s.geometry.chord).collect();
         let mut all = Circulations::default();
         for (i, blade) in instants.iter().enumerate() {
             let (flap, lead) = self.equivalent_angles(&blade.modal);
-            let matrix = near_wake_matrix(options, &wake_hub, &BladeState { psi: blade.psi, flap, lead })?;
-            let row = i * n..(i + 1) * n;
+            let state = BladeState { psi: blade.psi, flap, lead };
+            let near = near_wake_matrix(options, &wake_hub, &state)?;
+            let tangency = match self.thin {
+                Some(_) => Some(weissinger_matrix(options, &wake_hub, &state, &chords)?),
+                None => None,
+            };
+            let far = &lambda_far[i * n..(i + 1) * n];
+            let matrix = tangency.as_ref().unwrap_or(&near);
             let solution =
-                self.blade_circulation(air, hub, blade, &lambda_far[row.clone()], &matrix, &start[row])?;
+                self.blade_circulation(air, hub, blade, far, matrix, &start[i * n..(i + 1) * n])?;
             all.residual = all.residual.max(solution.residual);
             all.not_converged += usize::from(!solution.converged);
+            if tangency.is_some() {
+                // lift is perpendicular to the air at the bound line, where the own bound vortex induces nothing
+                all.inflow.extend(
+                    (0..n).map(|r| far[r] + (0..n).map(|j| near[r * n + j] * solution.gamma[j]).sum::<f64>()),
+                );
+            }
             all.gamma.extend(solution.gamma);
             all.inflow.extend(solution.inflow);
         }

@@ -10,6 +10,7 @@ use crate::blade::error::BladeError;
 use crate::blade::kinematics::{ModalMotion, PitchMotion, combine};
 use crate::blade::loads::{BladeEnvironment, BladeInflow, BladeLoads, HubMotion};
 use crate::blade::model::{Blade, Discretisation};
+use crate::blade::thin_section::ThinSection;
 use crate::numerics::four::{Four, FourTask, four_at_once};
 use crate::numerics::frames::{Body, Hub, Rotation, Vec3, rot_hb};
 use crate::numerics::scalar::Real;
@@ -66,6 +67,8 @@ pub struct Rotor {
     pub n_blades: usize,
     /// Section tables.
     pub airfoil: Airfoil,
+    /// Thin sections of a Weissinger blade on a free wake, in place of the tables' lift.
+    pub thin: Option<ThinSection>,
     /// Damper of every blade.
     pub lag_damper: Option<LagDamper>,
     /// Sticks to pitch.
@@ -90,6 +93,7 @@ impl Rotor {
             blade: Blade::new(&data.blade, data.omega, tip_loss_factor, discretisation)?,
             n_blades: data.n_blades,
             airfoil: data.airfoil.clone(),
+            thin: None,
             lag_damper: data.lag_damper.clone(),
             rigging,
             omega: data.omega,
@@ -200,6 +204,18 @@ impl Rotor {
         control: &PitchMotion<S>,
     ) -> BladeLoads<S> {
         self.blade.inertia(self.omega, hub, S::cst(psi), modal, control)
+    }
+
+    /// Inflow of a blade held as one row: at the stations, followed for thin sections by that at three quarters of the chord.
+    pub fn held_inflow<'a, S: Real>(&self, row: &'a [f64]) -> BladeInflow<'a, S> {
+        let n = self.blade.stations.len();
+        match self.thin {
+            Some(law) if row.len() == 2 * n => {
+                BladeInflow::TwoLines { law, quarter: &row[..n], three_quarter: &row[n..] }
+            }
+            Some(law) => BladeInflow::TwoLines { law, quarter: row, three_quarter: row },
+            None => BladeInflow::Stations(row),
+        }
     }
 
     /// Visits the air at every station of a blade: (station, section, inflow).

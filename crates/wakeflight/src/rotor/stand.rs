@@ -58,7 +58,7 @@ pub enum ControlEquation {
 pub enum StandInflow {
     /// Three states of dynamic inflow, constant over the revolution.
     Dynamic,
-    /// lambda held, row-major (n_azimuths, n_stations), positive down.
+    /// lambda held, row-major (n_azimuths, n_stations), positive down; rows as `Rotor::held_inflow` takes them.
     Map(Vec<f64>),
 }
 
@@ -171,12 +171,14 @@ impl Stand {
         let layout = self.layout(problem);
         let hub = self.hub(problem.velocity, problem.rates).constant();
         let controls = [x[0], x[1], x[2]];
-        let n_stations = self.rotor.blade.stations.len();
         let i = layout.inflow();
         let given = |l: usize, psi: f64| {
             let inflow = match &problem.inflow {
                 StandInflow::Dynamic => BladeInflow::Disk([x[i], x[i + 1], x[i + 2]]),
-                StandInflow::Map(map) => BladeInflow::Stations(&map[l * n_stations..(l + 1) * n_stations]),
+                StandInflow::Map(map) => {
+                    let width = map.len() / problem.n_azimuths;
+                    self.rotor.held_inflow(&map[l * width..(l + 1) * width])
+                }
             };
             (self.pitch(controls, &problem.higher, psi), inflow)
         };

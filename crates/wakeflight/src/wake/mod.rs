@@ -8,6 +8,7 @@ pub mod filament;
 pub mod geometry;
 pub mod inboard_sheet;
 pub mod initial;
+pub mod lifting_surface;
 pub mod miss_distance;
 pub mod near_wake;
 pub mod options;
@@ -19,6 +20,7 @@ pub mod velocity_field;
 
 pub use circulation::{CirculationSolution, solve_circulation};
 pub use error::WakeError;
+pub use lifting_surface::weissinger_matrix;
 pub use near_wake::near_wake_matrix;
 pub use options::{
     BladeState, CoreDistance, Form, HubMotion, InboardWake, Predictor, Scheme, TipStrength, WakeOptions,

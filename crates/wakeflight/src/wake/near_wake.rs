@@ -2,10 +2,9 @@
 
 use super::error::WakeError;
 use super::geometry::{BladeGrid, blade_point};
-use super::options::{BladeState, CoreDistance, HubMotion, WakeOptions};
-use super::velocity_field::{push, segment_velocity, sum};
-use crate::vortex::core::Core;
-use crate::vortex::induced_velocity::Segments;
+use super::lifting_surface::influence;
+use super::options::{BladeState, HubMotion, WakeOptions};
+use super::velocity_field::sum;
 
 /// Matrix N (n_stations, n_stations), row-major [s/m2]: inflow at the stations that the near wake of the own blade adds,
 /// lambda_i = sum_j N_ij Gamma_j, lambda = -v_z/(omega R).
@@ -22,39 +21,33 @@ pub fn near_wake_matrix(
     options.validate()?;
     hub.validate()?;
     blade.validate()?;
-    let n = options.n_stations;
-    let mut matrix = vec![0.0; n * n];
     if options.near_wake_markers() == 0 {
-        return Ok(matrix);
+        return Ok(vec![0.0; options.n_stations * options.n_stations]);
     }
     let grid = BladeGrid::new(options);
     let stations: Vec<[f64; 3]> = grid.stations.iter().map(|r| blade_point(options, blade, *r)).collect();
-    let wind = hub.wind([0.0; 3]);
-    let mut velocity = vec![[0.0; 3]; n];
-    for (edge, r) in grid.edges.iter().enumerate() {
-        let mut trailer = Segments::default();
-        let node = |k: usize| {
-            let zeta = options.near_wake_angle * k as f64 / options.near_wake_segments as f64;
-            let past = BladeState { psi: blade.psi - zeta, ..*blade };
-            sum(blade_point(options, &past, *r), wind.map(|v| v * zeta / options.omega))
-        };
-        for k in 0..options.near_wake_segments {
-            push(&mut trailer, node(k), node(k + 1), 1.0, 0.0);
-        }
-        velocity.fill([0.0; 3]);
-        segment_velocity(&stations, &trailer, Core::Singular, CoreDistance::Line, &mut velocity);
-        for (i, v) in velocity.iter().enumerate() {
-            let inflow = -v[2] / options.tip_speed();
-            // element inboard of this edge feeds the trailer, element outboard of it takes away
-            if edge > 0 {
-                matrix[i * n + edge - 1] += inflow;
-            }
-            if edge < n {
-                matrix[i * n + edge] -= inflow;
-            }
-        }
+    let lines = trailers(options, &grid, hub, blade);
+    let mut matrix = influence(&lines, &stations, [0.0, 0.0, 1.0], false);
+    for value in &mut matrix {
+        *value /= options.tip_speed();
     }
     Ok(matrix)
+}
+
+/// Nodes of the near wake's trailers, one per edge of the bound elements, from the blade on [m, `_h`].
+pub(super) fn trailers(
+    options: &WakeOptions,
+    grid: &BladeGrid,
+    hub: &HubMotion,
+    blade: &BladeState,
+) -> Vec<Vec<[f64; 3]>> {
+    let wind = hub.wind([0.0; 3]);
+    let node = |r: f64, k: usize| {
+        let zeta = options.near_wake_angle * k as f64 / options.near_wake_segments as f64;
+        let past = BladeState { psi: blade.psi - zeta, ..*blade };
+        sum(blade_point(options, &past, r), wind.map(|v| v * zeta / options.omega))
+    };
+    grid.edges.iter().map(|r| (0..=options.near_wake_segments).map(|k| node(*r, k)).collect()).collect()
 }
 
 #[cfg(test)]
