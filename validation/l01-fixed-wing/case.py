@@ -1,0 +1,80 @@
+"""A fixed rectangular wing by the blade's lifting line: the near wake of a blade so far from the hub that it flies straight."""
+
+import json
+
+import numpy as np
+
+import wakeflight as wf
+from wakeflight import _core
+from wakeflight.plotting import style
+from wakeflight.validate import Check, Outcome
+
+FAR = 1e5
+"""Distance of the wing from the hub, in chords."""
+COUNTS = (20, 40, 80, 160)
+AT = (0.0, 0.5, 0.8, 0.95)
+"""Stations over the half span at which circulation is compared."""
+
+
+def wing(ratio, n):
+    """Edges and stations along the span, circulation over U alpha, downwash angle over alpha, of a wing of unit chord."""
+    options = wf.RelaxationWake(near_wake_angle="10 deg").core_options(wf.load_aircraft("uh60a"))
+    options |= {"n_blades": 1, "radius": FAR + ratio / 2, "root_cutout": FAR - ratio / 2, "hinge_offset": 0.0,
+                "chord": 1.0, "omega": 1.0 / FAR, "n_stations": n, "near_wake_segments": 60}  # fmt: skip
+    at_rest = ([0.0, 0.0, 0.0], [0.0, 0.0, 0.0])
+    text = json.dumps(options)
+    tip_speed = options["omega"] * options["radius"]
+    matrix = _core.near_wake_matrix(text, *at_rest, 0.0, 0.0, 0.0) * tip_speed
+    grid = _core.RelaxationWake(text, *at_rest, 0.0)
+    # Gamma = c/2 2 pi (U alpha - w): the section's lift-curve slope is 2 pi
+    circulation = np.linalg.solve(np.eye(n) + np.pi * matrix, np.full(n, np.pi))
+    return np.array(grid.edges()) - FAR, np.array(grid.stations()) - FAR, circulation, matrix @ circulation
+
+
+def run(case):
+    table = case.table("wing.csv")
+    checks, found = [], {}
+    for i, ratio in enumerate(table["AR"]):
+        slopes, local = [], []
+        for n in COUNTS:
+            edges, stations, circulation, downwash = wing(ratio, n)
+            width = np.diff(edges)
+            slopes.append(2 * np.sum(circulation * width) / ratio)
+            local.append(np.interp(AT, stations / (ratio / 2), circulation / ratio))
+        exact = table["CL_alpha"][i]
+        text = f"aspect ratio {ratio:g}"
+        checks.append(Check(f"lift-curve slope, {text}, 160 stations", slopes[-1], exact, 0.005, "1/rad", "relative"))
+        limit = 2 * slopes[-1] - slopes[-2]
+        checks.append(
+            Check(f"slope without the error of first order, {text}", limit, exact, 0.001, "1/rad", "relative")
+        )
+        drag = 2 * np.sum(circulation * downwash * width) / ratio
+        delta = drag * np.pi * ratio / slopes[-1] ** 2 - 1
+        checks.append(Check(f"induced-drag factor delta, {text}", delta, table["delta"][i], 0.01))
+        theirs = [table[name][i] for name in ("G0", "G05", "G08", "G095")]
+        ours = 2 * local[-1] - local[-2]
+        label = f"circulation without the error of first order, {text}"
+        checks.append(Check.largest(label, ours, theirs, 0.005, "b U alpha", "relative"))
+        for at, raw, reference in zip(AT, local[-1], theirs):
+            label = f"circulation at {at:g} of the half span, {text}, 160 stations"
+            checks.append(Check(label, raw, reference, unit="b U alpha", gate=False))
+        found[ratio] = (np.abs(np.array(slopes) / exact - 1), stations / (ratio / 2), circulation / ratio, theirs)
+    return Outcome(checks, draw(found))
+
+
+@style.styled
+def draw(found):
+    figure = style.blank(2.9)
+    left, right = figure.subplots(1, 2)
+    for (ratio, (error, y, circulation, exact)), color in zip(found.items(), style.COLORS):
+        left.plot(y, circulation, color=color, label=f"aspect ratio {ratio:g}")
+        left.plot(AT, exact, "ko", ms=4)
+        right.loglog(COUNTS, error, "o-", color=color)
+    right.loglog(COUNTS, 0.5 / np.array(COUNTS), "--", color=style.GREY, label="first order")
+    left.set_xlabel("2y/b, the refined end on the right")
+    left.set_ylabel("circulation over b U α; dots exact")
+    right.set_xlabel("stations")
+    right.set_ylabel("relative error of the lift-curve slope")
+    left.legend()
+    right.legend()
+    return figure
