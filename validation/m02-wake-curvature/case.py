@@ -2,10 +2,10 @@
 
 import numpy as np
 from settings import HOVER_WAKES, hover
-from wakeflight.plotting import style
-from wakeflight.validate import Check, Outcome
 
 import wakeflight as wf
+from wakeflight.plotting import style
+from wakeflight.validate import Check, Outcome
 
 RATES = (-0.006, 0.006)
 """Pitch rate over rotor speed."""
