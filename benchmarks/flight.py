@@ -5,6 +5,7 @@ from measure import seconds, table
 
 import wakeflight as wf
 from wakeflight import flight as flying
+from wakeflight.integrators import consistent_rate
 
 PHASES = ("seconds_trim", "seconds_convergence", "seconds_wake", "seconds_dynamics")
 
@@ -24,7 +25,7 @@ def dynamics(quick: bool) -> str:
     held, mean = source.held(0)
     inputs = flying.coupling_inputs(sticks, 0.0, held, mean, trimmed.stabilator_incidence)
     y = trimmed.state(0.0)
-    y_dot = flying.consistent_rate(model, 0.0, y, inputs)
+    y_dot = consistent_rate(model, 0.0, y, inputs)
     n = y.size
     out, matrix = np.empty(n), np.empty((n, n))
 
