@@ -126,6 +126,11 @@ class MarchingExchange:
         """Core radii of the segments of the tip vortices (n_blades, n_ages - 1) [m]."""
         return self.core.core_radius()
 
+    def lattice(self, step: int) -> tuple[np.ndarray, np.ndarray]:
+        """Every trailer, root to tip: positions (n_blades, n_trailers, n_ages, 3) [m], hub axes, and circulation [m2/s]."""
+        position = self.core.lattice()
+        return position, self.core.lattice_circulation().reshape(position.shape[:3])
+
     @property
     def segment_evaluations(self) -> int:
         """Counted evaluations of the segment law."""
@@ -182,6 +187,13 @@ class RelaxationExchange:
     def core_radius(self, step: int) -> np.ndarray:
         """Core radii of the segments of the tip vortices (n_blades, n_ages - 1) [m]."""
         return self.trimmed.relaxation.core_radius()[self.rows(step)]
+
+    def lattice(self, step: int) -> tuple[np.ndarray, np.ndarray]:
+        """Every trailer as in `MarchingExchange.lattice`, with the blades at their azimuths of `step`."""
+        wake, rows = self.trimmed.relaxation, np.asarray(self.rows(step))
+        position = wake.lattice()[rows]
+        born = (rows[:, None] - np.arange(position.shape[2])) % self.n
+        return position, wake.released_circulation()[born].swapaxes(1, 2)
 
     @property
     def segment_evaluations(self) -> int:

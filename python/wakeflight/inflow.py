@@ -21,6 +21,8 @@ _CHOICES = {
     "scheme": ("bdf2", "pc2b", "pcc"),
     "predictor": ("same", "central"),
     "form": ("displacement", "position"),
+    "trailers": ("tip", "full-span"),
+    "shed_wake": ("none", "beyond", "all"),
     "tip_strength": ("equivalent", "max", "mean"),
     "inboard_wake": ("none", "sheet"),
     "core_distance": ("line", "segment"),
@@ -30,6 +32,8 @@ _CHOICES = {
 _RANGES: dict[str, tuple[float, float]] = {
     "turns": (1, 20),
     "time_filter": (0.0, 0.49),
+    "n_trailers": (0, 201),
+    "trailer_core": (0.0, 0.2),
     "tip_strength_inner": (0.0, 0.95),
     "n_sheet": (1, 20),
     "sheet_factor": (0.0, 5.0),
@@ -52,6 +56,7 @@ _RANGES: dict[str, tuple[float, float]] = {
 }
 
 _WHOLE = {
+    "n_trailers",
     "n_sheet",
     "near_wake_segments",
     "far_wake_turns",
@@ -85,6 +90,14 @@ class _Wake:
     """Step of azimuth and of wake age; None is the aircraft's (10 deg)."""
     form: str = "displacement"
     """What the scheme acts on: displacement from the release point, or position."""
+    trailers: str = "tip"
+    """What leaves a blade freely: its tip vortex alone, or trailers all over the span joined by shed vortices."""
+    n_trailers: int = 0
+    """Trailers per blade of a full-span wake; 0 is one at every edge of the bound elements (n_stations + 1)."""
+    trailer_core: float = 0.02
+    """Core radius at release of the trailers of a full-span wake, over the rotor radius."""
+    shed_wake: str = "beyond"
+    """Shed vortices of a full-span wake: none, all, or all with those over a blade's own near wake gathered at its end."""
     tip_strength: str = "equivalent"
     """Tip vortex strength: uniform circulation of equal thrust, maximum or mean of the outboard part."""
     tip_strength_inner: float = 0.5
@@ -125,8 +138,15 @@ class _Wake:
     name: ClassVar[str] = ""
 
     def __post_init__(self) -> None:
-        """Check every option; angles become radians."""
+        """Check every option; angles become radians. Full-span trailers leave no room for a sheet or a moved tip."""
         _check_options(self)
+        if self.n_trailers == 1 or self.n_trailers > self.n_stations + 1:
+            raise InputError.of(
+                "n_trailers", self.n_trailers, f"must be 0, or from 2 to n_stations + 1 = {self.n_stations + 1}"
+            )
+        for name, needed in (("inboard_wake", "none"), ("release_radius", 1.0)):
+            if self.trailers == "full-span" and getattr(self, name) != needed:
+                raise InputError.of(name, getattr(self, name), f"must be {needed} with trailers = full-span")
 
     @property
     def steps_per_revolution(self) -> int | None:
@@ -182,6 +202,10 @@ class _Wake:
             "predictor": getattr(self, "predictor", "same"),
             "form": self.form,
             "time_filter": float(getattr(self, "time_filter", 0.0)),
+            "trailers": self.trailers,
+            "n_trailers": self.n_trailers,
+            "trailer_core": float(self.trailer_core),
+            "shed_wake": self.shed_wake,
             "tip_strength": self.tip_strength,
             "tip_strength_inner": float(self.tip_strength_inner),
             "inboard_wake": self.inboard_wake,

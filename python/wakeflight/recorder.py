@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 SNAPSHOTS_PER_REVOLUTION = 4
 LARGE_DISPLACEMENT = 0.25
 """Motion of a wake node in a step over R from which a run says so: half of what the wake refuses."""
+LARGEST_SHEET = 5_000_000  # numbers; larger lattices of full-span wakes are not kept
 STATION_FIELDS = ("inflow", "circulation", "cl", "cl_m2", "alpha", "mach")
 
 
@@ -58,6 +59,8 @@ class Recorder:
         self.snapshot_circulation: list[np.ndarray] = []
         self.snapshot_core: list[np.ndarray] = []
         self.snapshot_revolution: list[float] = []
+        self.sheets: list[tuple[np.ndarray, np.ndarray]] = []
+        self.keeps_sheets = keeps_sheets(model, n_steps)
 
     def record(
         self,
@@ -97,6 +100,8 @@ class Recorder:
             self.snapshots.append(position_of(wake, step))
             self.snapshot_circulation.append(wake.marker_circulation(step))
             self.snapshot_core.append(at_nodes(wake.core_radius(step)))
+            if self.keeps_sheets:
+                self.sheets.append(wake.lattice(step))
             self.snapshot_revolution.append(step / self.model.steps_per_revolution)
         # a row counts only when it is finite: what cannot be kept ends the flight
         if not np.all(np.isfinite(self.state[step])) or not np.all(np.isfinite(self.loads["force"][step])):
@@ -205,6 +210,10 @@ class Recorder:
             arrays["wake_core"] = np.array(self.snapshot_core)
             arrays["snapshot_revolution"] = np.array(self.snapshot_revolution)
             arrays["age"] = 2 * np.pi * np.arange(positions.shape[2]) / self.model.steps_per_revolution
+        if self.sheets:
+            arrays["wake_sheet"], arrays["wake_sheet_circulation"] = (
+                np.array(each) for each in zip(*self.sheets, strict=True)
+            )
         n = self.model.steps_per_revolution
         arrays["psi"] = 2 * np.pi * np.arange(n) / n
         arrays["inflow_trim"] = self.start.inflow_map
@@ -267,6 +276,16 @@ class Recorder:
 def position_of(wake: Any, step: int) -> np.ndarray:
     """Tip vortices of either free wake (n_blades, n_ages, 3) [m]."""
     return wake.position(step) if hasattr(wake, "updates") else wake.position()
+
+
+def keeps_sheets(model: Model, n_steps: int) -> bool:
+    """Whether the run is short enough to keep the whole lattice of a full-span wake."""
+    if getattr(model.inflow, "trailers", "tip") == "tip":
+        return False
+    n = model.steps_per_revolution
+    snapshots = 1 + SNAPSHOTS_PER_REVOLUTION * n_steps // n
+    trailers = model.inflow.n_trailers or model.stations.size + 1
+    return 4 * snapshots * model.n_blades * trailers * (1 + n * model.inflow.turns) <= LARGEST_SHEET
 
 
 def at_nodes(of_segments: np.ndarray) -> np.ndarray:

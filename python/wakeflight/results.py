@@ -184,7 +184,7 @@ def _coordinates(given: Arrays, sizes: Mapping[str, int], increasing: Sequence[s
             values = np.array(["x", "y", "z"])
         elif dim in given:
             values = given[dim]
-        elif dim in ("blade", "mode", "harmonic", "snapshot", "revolution"):
+        elif dim in ("blade", "trailer", "mode", "harmonic", "snapshot", "revolution"):
             values = np.arange(n) if dim in ("harmonic", "snapshot") else np.arange(1, n + 1)
         else:
             raise ResultsError(f"coordinate {dim} [{COORDINATES[dim].units}] is missing")

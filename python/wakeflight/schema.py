@@ -43,6 +43,7 @@ COORDINATES: dict[str, Variable] = {
         Variable("station", ("station",), "1", "radial station r/R, from the hub centre"),
         Variable("mode", ("mode",), "1", "blade mode in ascending order of frequency"),
         Variable("snapshot", ("snapshot",), "1", "wake snapshot number"),
+        Variable("trailer", ("trailer",), "1", "free trailer of a blade, from root to tip"),
         Variable("age", ("age",), "rad", "wake age: angle turned by the blade since release"),
         Variable("xyz", ("xyz",), "1", "component"),
         Variable("azimuth", ("azimuth",), "rad", "azimuth, 0 over the tail, in the direction of rotation"),
@@ -112,6 +113,20 @@ RUN: tuple[Variable, ...] = (
         BLADE,
         ("flap", "rad", "flap angle of the rigid blade with the same tip, up positive"),
         ("lead", "rad", "lead angle of the rigid blade with the same tip, in the direction of rotation positive"),
+        optional=True,
+    ),
+    Variable(
+        "wake_sheet",
+        ("snapshot", "blade", "trailer", "age", "xyz"),
+        "m",
+        "position of every trailer of a full-span wake, hub axes; left out of runs where it has over five million numbers",
+        optional=True,
+    ),
+    Variable(
+        "wake_sheet_circulation",
+        ("snapshot", "blade", "trailer", "age"),
+        "m2/s",
+        "circulation of the trailers of a full-span wake at their nodes, kept with `wake_sheet`",
         optional=True,
     ),
     *_rows(

@@ -13,9 +13,10 @@ from wakeflight.references import known_keys
 
 KEYS = (
     "n_blades radius root_cutout hinge_offset chord omega n_stations turns steps_per_revolution scheme "
-    "predictor form time_filter tip_strength tip_strength_inner inboard_wake n_sheet sheet_factor "
-    "core_radius core_growth core_stretching core_distance curvature_correction rates near_wake_angle "
-    "near_wake_segments bound_core station_core_floor far_wake_turns release_radius relaxation "
+    "predictor form time_filter trailers n_trailers trailer_core shed_wake tip_strength "
+    "tip_strength_inner inboard_wake n_sheet sheet_factor core_radius core_growth core_stretching "
+    "core_distance curvature_correction rates near_wake_angle near_wake_segments bound_core station_core_floor "
+    "far_wake_turns release_radius relaxation "
 )
 
 
@@ -56,6 +57,11 @@ def test_options_reach_the_core():
         (TimeMarchingWake, {"azimuth_step": 10}),
         (TimeMarchingWake, {"azimuth_step": "0 deg"}),
         (TimeMarchingWake, {"scheme": "euler"}),
+        (TimeMarchingWake, {"trailers": "all"}),
+        (TimeMarchingWake, {"n_trailers": 1}),
+        (TimeMarchingWake, {"n_trailers": 12, "n_stations": 10}),
+        (TimeMarchingWake, {"trailers": "full-span", "inboard_wake": "sheet"}),
+        (RelaxationWake, {"trailers": "full-span", "release_radius": 0.98}),
         (TimeMarchingWake, {"turns": 0}),
         (TimeMarchingWake, {"turns": "4"}),
         (TimeMarchingWake, {"n_stations": 20.5}),

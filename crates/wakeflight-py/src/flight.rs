@@ -3,8 +3,11 @@
 use crate::aircraft::{PyAircraft, PyInputs};
 use crate::rotor::motion;
 use crate::stand::{PyStand, hub_state};
-use crate::wake::{RelaxationWake, flat, matrix, parse_options, py_error, vectors};
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyReadonlyArray1, PyReadonlyArray2};
+use crate::wake::{
+    RelaxationWake, flat, marched_lattice, matrix, parse_options, py_error, tip_circulation, tip_core,
+    vectors,
+};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyArray4, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::{PyArithmeticError, PyValueError};
 use pyo3::prelude::*;
 use std::f64::consts::TAU;
@@ -217,17 +220,27 @@ impl PyMarchingExchange {
 
     /// Markers (n_blades, n_segments + 1, 3) [m].
     fn position<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
-        vectors(py, self.inner.wake.position(), self.inner.wake.options().n_blades)
+        vectors(py, &self.inner.wake.tip_position(), self.inner.wake.options().n_blades)
     }
 
     /// Circulation of the markers (n_blades, n_segments + 1) [m2/s].
     fn marker_circulation<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        matrix(py, self.inner.wake.marker_circulation().to_vec(), self.inner.wake.options().n_blades)
+        tip_circulation(py, &self.inner.wake)
     }
 
     /// Core radii of the segments (n_blades, n_segments) [m].
     fn core_radius<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        matrix(py, self.inner.wake.core_radius(), self.inner.wake.options().n_blades)
+        tip_core(py, &self.inner.wake)
+    }
+
+    /// Markers of every trailer, root to tip (n_blades, n_trailers, n_segments + 1, 3) [m].
+    fn lattice<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray4<f64>>> {
+        marched_lattice(py, &self.inner.wake)
+    }
+
+    /// Circulation of the markers, trailer after trailer (n_blades, n_trailers (n_segments + 1)) [m2/s].
+    fn lattice_circulation<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        matrix(py, self.inner.wake.marker_circulation().to_vec(), self.inner.wake.options().n_blades)
     }
 
     /// Segment evaluations so far.

@@ -1,7 +1,7 @@
 //! Free wake: conversions only.
 
 use numpy::ndarray::Array;
-use numpy::{Element, IntoPyArray, PyArray2, PyArray3, PyReadonlyArray1, PyReadonlyArray2};
+use numpy::{Element, IntoPyArray, PyArray2, PyArray3, PyArray4, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::{PyArithmeticError, PyValueError};
 use pyo3::prelude::*;
 use wakeflight::wake::lifting_surface::{ControlLine, wing_circulation as wing_circulation_of};
@@ -55,6 +55,49 @@ pub(crate) fn vectors<'py>(
     let array = Array::from_shape_vec((rows, columns, 3), values.as_flattened().to_vec())
         .map_err(|e| PyValueError::new_err(e.to_string()))?;
     Ok(array.into_pyarray(py))
+}
+
+/// (n, m, l, 3) array from row-major vectors.
+fn lattice<'py>(
+    py: Python<'py>,
+    values: &[[f64; 3]],
+    rows: usize,
+    columns: usize,
+) -> PyResult<Bound<'py, PyArray4<f64>>> {
+    let depth = values.len().checked_div(rows * columns).unwrap_or(0);
+    let array = Array::from_shape_vec((rows, columns, depth, 3), values.as_flattened().to_vec())
+        .map_err(|e| PyValueError::new_err(e.to_string()))?;
+    Ok(array.into_pyarray(py))
+}
+
+/// Every trailer of a marched wake (n_blades, n_trailers, n_segments + 1, 3) [m].
+pub(crate) fn marched_lattice<'py>(
+    py: Python<'py>,
+    wake: &wake::TimeMarchingWake,
+) -> PyResult<Bound<'py, PyArray4<f64>>> {
+    let options = wake.options();
+    lattice(py, wake.position(), options.n_blades, options.trailers_per_blade())
+}
+
+/// Circulation of the markers of the tip trailers of a marched wake (n_blades, n_segments + 1) [m2/s].
+pub(crate) fn tip_circulation<'py>(
+    py: Python<'py>,
+    wake: &wake::TimeMarchingWake,
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let options = wake.options();
+    let length = options.n_segments() + 1;
+    let tips = wake::tip_rows(wake.marker_circulation(), options.trailers_per_blade(), length);
+    matrix(py, tips, options.n_blades)
+}
+
+/// Core radii of the segments of the tip trailers of a marched wake (n_blades, n_segments) [m].
+pub(crate) fn tip_core<'py>(
+    py: Python<'py>,
+    wake: &wake::TimeMarchingWake,
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let options = wake.options();
+    let tips = wake::tip_rows(&wake.core_radius(), options.trailers_per_blade(), options.n_segments());
+    matrix(py, tips, options.n_blades)
 }
 
 /// Matrix N (n_stations, n_stations) [s/m2]: inflow of the near wake of the own blade, lambda_i = sum_j N_ij Gamma_j.
@@ -173,19 +216,34 @@ impl RelaxationWake {
         matrix(py, velocity.as_flattened().to_vec(), velocity.len())
     }
 
-    /// Markers (n_azimuths, n_segments + 1, 3) [m].
+    /// Markers of the tip trailer (n_azimuths, n_segments + 1, 3) [m].
     fn position<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
-        vectors(py, self.inner.position(), self.inner.options().steps_per_revolution)
+        vectors(py, &self.inner.tip_position(), self.inner.options().steps_per_revolution)
     }
 
-    /// Core radii of the segments (n_azimuths, n_segments) [m].
+    /// Markers of every trailer, root to tip (n_azimuths, n_trailers, n_segments + 1, 3) [m].
+    fn lattice<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray4<f64>>> {
+        let options = self.inner.options();
+        lattice(py, self.inner.position(), options.steps_per_revolution, options.trailers_per_blade())
+    }
+
+    /// Core radii of the segments of the tip trailer (n_azimuths, n_segments) [m].
     fn core_radius<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        matrix(py, self.inner.core_radius(), self.inner.options().steps_per_revolution)
+        let options = self.inner.options();
+        let cores =
+            wake::tip_rows(&self.inner.core_radius(), options.trailers_per_blade(), options.n_segments());
+        matrix(py, cores, options.steps_per_revolution)
     }
 
-    /// Circulation of the tip vortex released at every azimuth (n_azimuths) [m2/s].
+    /// Circulation of the tip trailer released at every azimuth (n_azimuths) [m2/s].
     fn tip_circulation(&self) -> Vec<f64> {
-        self.inner.tip_circulation().to_vec()
+        let n_trailers = self.inner.options().trailers_per_blade();
+        wake::tip_rows(self.inner.released_circulation(), n_trailers, 1)
+    }
+
+    /// Circulation of the trailers released at every azimuth, root to tip (n_azimuths, n_trailers) [m2/s].
+    fn released_circulation<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        matrix(py, self.inner.released_circulation().to_vec(), self.inner.options().steps_per_revolution)
     }
 
     /// Radii of the stations (n_stations) [m].
@@ -290,19 +348,24 @@ impl TimeMarchingWake {
         matrix(py, velocity.as_flattened().to_vec(), velocity.len())
     }
 
-    /// Markers (n_blades, n_segments + 1, 3) [m].
+    /// Markers of the tip trailers (n_blades, n_segments + 1, 3) [m].
     fn position<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
-        vectors(py, self.inner.position(), self.inner.options().n_blades)
+        vectors(py, &self.inner.tip_position(), self.inner.options().n_blades)
     }
 
-    /// Circulation of the markers (n_blades, n_segments + 1) [m2/s].
+    /// Markers of every trailer, root to tip (n_blades, n_trailers, n_segments + 1, 3) [m].
+    fn lattice<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray4<f64>>> {
+        marched_lattice(py, &self.inner)
+    }
+
+    /// Circulation of the markers of the tip trailers (n_blades, n_segments + 1) [m2/s].
     fn marker_circulation<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        matrix(py, self.inner.marker_circulation().to_vec(), self.inner.options().n_blades)
+        tip_circulation(py, &self.inner)
     }
 
-    /// Core radii of the segments (n_blades, n_segments) [m].
+    /// Core radii of the segments of the tip trailers (n_blades, n_segments) [m].
     fn core_radius<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        matrix(py, self.inner.core_radius(), self.inner.options().n_blades)
+        tip_core(py, &self.inner)
     }
 
     /// Segment evaluations so far.

@@ -207,15 +207,15 @@ mod inertial {
             let to_hub =
                 |x: [f64; 3]| -> [f64; 3] { times(&transposed(&c1), std::array::from_fn(|i| x[i] - h1[i])) };
             // old level in inertial axes
-            let old: Vec<[f64; 3]> = instant.tip.position.iter().map(|r| to_inertial(&c0, h0, *r)).collect();
+            let old: Vec<[f64; 3]> = instant.free.position.iter().map(|r| to_inertial(&c0, h0, *r)).collect();
             let v_old: Vec<[f64; 3]> = field_at(&instant).into_iter().map(|v| times(&c0, v)).collect();
             let mut next = marched.instant().clone();
             let place = |velocity: &dyn Fn(usize, usize) -> [f64; 3], next: &mut RotorInstant| {
                 for b in 0..options.n_blades {
-                    let m = next.tip.marker(b, 0);
+                    let m = next.free.marker(b, 0);
                     for k in 0..n_k {
                         let v = velocity(m + k, m + k + 1);
-                        next.tip.position[m + k + 1] =
+                        next.free.position[m + k + 1] =
                             to_hub(std::array::from_fn(|i| old[m + k][i] + dt * v[i]));
                     }
                 }
@@ -230,7 +230,7 @@ mod inertial {
             );
             instant = next;
         }
-        distance(&instant.tip.position, marched.position())
+        distance(&instant.free.position, marched.position())
     }
 
     #[test]

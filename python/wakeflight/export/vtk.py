@@ -14,8 +14,9 @@ if TYPE_CHECKING:
 def write(run: xr.Dataset, out_dir: str | Path, name: str = "wake") -> Path:
     """Write every wake snapshot of a run, a polyline per blade in hub axes [m]: x aft, y right, z up.
 
-    Point data: `age` [rad], `blade` and, where the run has them, `circulation` [m2/s] and `core_radius` [m]. Times in the series
-    are seconds from the start of the flight. Returns the path of the .pvd file, the one to open.
+    A run with the sheets of a full-span wake gives a polyline per trailer, numbered from root to tip.
+    Point data: `age` [rad], `blade`, `trailer` and, where the run has them, `circulation` [m2/s] and `core_radius` [m]. Times in
+    the series are seconds from the start of the flight. Returns the path of the .pvd file, the one to open.
     """
     if "wake" not in run:
         raise ValueError("the run has no wake to export")
@@ -25,16 +26,21 @@ def write(run: xr.Dataset, out_dir: str | Path, name: str = "wake") -> Path:
     entries = []
     for k, time in enumerate(seconds):
         snapshot = run.isel(snapshot=k)
-        nodes = snapshot["wake"].values
+        sheet = "wake_sheet" if "wake_sheet" in run else "wake"
+        nodes = snapshot[sheet].values
+        lines = nodes.shape[:-2]
         data = {
-            "age": np.broadcast_to(run["age"].values, nodes.shape[:2]),
-            "blade": np.broadcast_to(run["blade"].values[:, None], nodes.shape[:2]),
+            "age": np.broadcast_to(run["age"].values, nodes.shape[:-1]),
+            "blade": np.broadcast_to(run["blade"].values.reshape(-1, *[1] * len(lines)), nodes.shape[:-1]),
         }
-        for name, variable in (("circulation", "wake_circulation"), ("core_radius", "wake_core")):
+        if len(lines) == 2:
+            data["trailer"] = np.broadcast_to(run["trailer"].values[None, :, None], nodes.shape[:-1])
+        for label, variable in (("circulation", f"{sheet}_circulation"), ("core_radius", f"{sheet}_core")):
             if variable in run:
-                data[name] = snapshot[variable].values
+                data[label] = snapshot[variable].values
+        flat = {label: values.reshape(-1, nodes.shape[-2]) for label, values in data.items()}
         file = f"{name}-{k:03d}.vtp"
-        (out_dir / file).write_text(poly_data(nodes, data), encoding="ascii")
+        (out_dir / file).write_text(poly_data(nodes.reshape(-1, *nodes.shape[-2:]), flat), encoding="ascii")
         entries.append(f'    <DataSet timestep="{time:.9g}" file="{file}"/>')
     series = out_dir / f"{name}.pvd"
     series.write_text(_document("Collection", "  <Collection>\n" + "\n".join(entries) + "\n  </Collection>"))

@@ -1,6 +1,6 @@
 //! Equivalent rigid blade line: bound elements, stations and release of the tip vortex.
 
-use super::options::{BladeState, WakeOptions};
+use super::options::{BladeState, Trailers, WakeOptions};
 use std::f64::consts::PI;
 
 /// Radial grid of the bound vortex.
@@ -10,6 +10,8 @@ pub struct BladeGrid {
     pub edges: Vec<f64>,
     /// Stations, middles of the elements [m].
     pub stations: Vec<f64>,
+    /// Edges that free trailers leave from, root to tip: the tip's alone, or those between the panels of a full-span wake.
+    pub trailer_edges: Vec<usize>,
 }
 
 impl BladeGrid {
@@ -22,8 +24,17 @@ impl BladeGrid {
         // the tip must be the release point of the tip vortex to the last bit
         edges[n] = radius;
         let stations = edges.windows(2).map(|e| 0.5 * (e[0] + e[1])).collect();
-        BladeGrid { edges, stations }
+        BladeGrid { edges, stations, trailer_edges: trailer_edges(options) }
     }
+}
+
+/// Edges that free trailers leave from; panels between them gather whole elements, as equal in number as they divide.
+fn trailer_edges(options: &WakeOptions) -> Vec<usize> {
+    let (n, panels) = (options.n_stations, options.trailers_per_blade() - 1);
+    if panels == 0 {
+        return vec![n];
+    }
+    (0..=panels).map(|i| (i * n + panels / 2) / panels).collect()
 }
 
 /// Point of the rigid blade line at the radius `r` [m, `_h`].
@@ -43,9 +54,13 @@ pub fn blade_point(options: &WakeOptions, blade: &BladeState, r: f64) -> [f64; 3
     [radial * cos_psi - tangential * sin_psi, radial * sin_psi + tangential * cos_psi, (r - e) * sin_flap]
 }
 
-/// Release point of the tip vortex [m, `_h`].
-pub fn release_point(options: &WakeOptions, blade: &BladeState) -> [f64; 3] {
-    blade_point(options, blade, options.release_radius * options.radius)
+/// Release points of the free trailers of a blade, root to tip (trailers_per_blade) [m, `_h`].
+pub fn release_points(options: &WakeOptions, grid: &BladeGrid, blade: &BladeState) -> Vec<[f64; 3]> {
+    let radius = |edge: usize| match options.trailers {
+        Trailers::Tip => options.release_radius * options.radius,
+        Trailers::FullSpan => grid.edges[edge],
+    };
+    grid.trailer_edges.iter().map(|edge| blade_point(options, blade, radius(*edge))).collect()
 }
 
 #[cfg(test)]
@@ -56,7 +71,8 @@ mod tests {
     fn a_leading_blade_is_ahead_in_azimuth() {
         // lead is in the direction of rotation: at the tail (psi = 0) that is to the right
         let options = WakeOptions::new(4, 8.0, 1.0, 0.4, 0.5, 27.0);
-        let tip = release_point(&options, &BladeState { psi: 0.0, flap: 0.05, lead: 0.02 });
+        let grid = BladeGrid::new(&options);
+        let tip = release_points(&options, &grid, &BladeState { psi: 0.0, flap: 0.05, lead: 0.02 })[0];
         assert!(tip[1] > 0.0 && tip[2] > 0.0);
         assert!((tip[2] - 7.6 * 0.05f64.sin()).abs() < 1e-14);
         assert!((tip[0] - (0.4 + 7.6 * 0.05f64.cos() * 0.02f64.cos())).abs() < 1e-14);
@@ -68,6 +84,23 @@ mod tests {
         let grid = BladeGrid::new(&options);
         assert_eq!((grid.edges.len(), grid.stations.len()), (21, 20));
         assert_eq!((grid.edges[0], grid.edges[20]), (1.0, 8.0));
+        assert_eq!(grid.trailer_edges, [20]);
         assert!((grid.edges[10] - (1.0 + 7.0 * 0.5f64.sqrt())).abs() < 1e-14);
+    }
+
+    #[test]
+    fn panels_gather_whole_elements_from_root_to_tip() {
+        let full_span =
+            WakeOptions { trailers: Trailers::FullSpan, ..WakeOptions::new(4, 8.0, 1.0, 0.4, 0.5, 27.0) };
+        let edges =
+            |n_trailers| BladeGrid::new(&WakeOptions { n_trailers, ..full_span.clone() }).trailer_edges;
+        assert_eq!(edges(0), (0..=20).collect::<Vec<_>>());
+        for n_trailers in 2..=21 {
+            let edges = edges(n_trailers);
+            assert_eq!((edges.len(), edges[0], edges[n_trailers - 1]), (n_trailers, 0, 20));
+            let widths: Vec<usize> = edges.windows(2).map(|e| e[1] - e[0]).collect();
+            let (least, most) = (widths.iter().min().unwrap(), widths.iter().max().unwrap());
+            assert!(*least >= 1 && most - least <= 1, "{widths:?}");
+        }
     }
 }

@@ -5,20 +5,21 @@ use super::velocity_field::RotorInstant;
 
 /// Smallest distance between a blade's span (root to tip) and a tip-vortex segment, over the segment's core radius.
 ///
-/// Segments of the blade's own vortex that are younger than its near wake are left out: they are released there.
+/// Of a full-span wake the trailers that leave the tips count. Segments of the blade's own vortex that are younger than its near wake are left out: they are released there.
 pub fn miss_distance_in_cores(options: &WakeOptions, instant: &RotorInstant) -> f64 {
-    let (tip, n) = (&instant.tip, options.n_stations);
+    let (free, n, n_t) = (&instant.free, options.n_stations, options.trailers_per_blade());
     let mut smallest = f64::INFINITY;
     for blade in 0..options.n_blades {
         // stations lie on the line of a rigid blade: its two ends are the whole span
         let ends = [instant.edge[blade * (n + 1)], instant.edge[blade * (n + 1) + n]];
         let (low, high) = (ends[0][2].min(ends[1][2]), ends[0][2].max(ends[1][2]));
-        for filament in 0..tip.n_filaments {
-            let first = if filament == blade { options.near_wake_markers().max(1) } else { 0 };
-            for k in first..tip.n_segments {
-                let m = tip.marker(filament, k);
-                let (a, b) = (tip.position[m], tip.position[m + 1]);
-                let core = tip.core_squared[filament * tip.n_segments + k].sqrt();
+        for other in 0..options.n_blades {
+            let filament = (other + 1) * n_t - 1;
+            let first = if other == blade { options.near_wake_markers().max(1) } else { 0 };
+            for k in first..free.n_segments {
+                let m = free.marker(filament, k);
+                let (a, b) = (free.position[m], free.position[m + 1]);
+                let core = free.core_squared[filament * free.n_segments + k].sqrt();
                 // far above or below: no need to look closer
                 let gap = (a[2].min(b[2]) - high).max(low - a[2].max(b[2]));
                 if gap < smallest * core {
@@ -51,6 +52,7 @@ fn segment_distance(p: [[f64; 3]; 2], q: [[f64; 3]; 2]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::wake::geometry::BladeGrid;
 
     #[test]
     fn distances_of_segments_are_those_of_geometry() {
@@ -72,7 +74,7 @@ mod tests {
     #[test]
     fn a_vortex_laid_above_a_blade_misses_it_by_its_height() {
         let options = WakeOptions::new(2, 8.0, 1.0, 0.4, 0.5, 27.0);
-        let mut instant = RotorInstant::new(&options);
+        let mut instant = RotorInstant::new(&options, &BladeGrid::new(&options));
         let n = options.n_stations;
         for (blade, side) in [(0, 1.0), (1, -1.0)] {
             for (j, edge) in instant.edge[blade * (n + 1)..(blade + 1) * (n + 1)].iter_mut().enumerate() {
@@ -80,10 +82,10 @@ mod tests {
             }
         }
         let far = [0.0, 0.0, 50.0];
-        instant.tip.position.fill(far);
-        let m = instant.tip.marker(0, 20);
-        (instant.tip.position[m], instant.tip.position[m + 1]) = ([5.0, -1.0, 0.3], [5.0, 1.0, 0.3]);
-        instant.tip.core_squared.fill(0.01);
+        instant.free.position.fill(far);
+        let m = instant.free.marker(0, 20);
+        (instant.free.position[m], instant.free.position[m + 1]) = ([5.0, -1.0, 0.3], [5.0, 1.0, 0.3]);
+        instant.free.core_squared.fill(0.01);
         assert!((miss_distance_in_cores(&options, &instant) - 3.0).abs() < 1e-9);
     }
 }

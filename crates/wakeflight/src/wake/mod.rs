@@ -1,4 +1,4 @@
-//! Free vortex wake: tip filaments, near wake, relaxation and time marching.
+//! Free vortex wake: tip vortices or the full span, near wake, relaxation and time marching.
 //!
 //! Everything that crosses the border is SI, in the hub frame `_h` (x aft, y right, z up, non-rotating, origin at the hub).
 
@@ -8,6 +8,7 @@ pub mod filament;
 pub mod geometry;
 pub mod inboard_sheet;
 pub mod initial;
+pub mod lattice;
 pub mod lifting_surface;
 pub mod miss_distance;
 pub mod near_wake;
@@ -16,6 +17,7 @@ pub mod relaxation;
 pub mod stencils;
 pub mod time_marching;
 pub mod tip_strength;
+pub mod trailers;
 pub mod velocity_field;
 
 pub use circulation::{CirculationSolution, solve_circulation};
@@ -23,8 +25,9 @@ pub use error::WakeError;
 pub use lifting_surface::weissinger_matrix;
 pub use near_wake::near_wake_matrix;
 pub use options::{
-    BladeState, CoreDistance, Form, HubMotion, InboardWake, Predictor, Scheme, TipStrength, WakeOptions,
+    BladeState, CoreDistance, Form, HubMotion, InboardWake, Predictor, Scheme, ShedWake, TipStrength,
+    Trailers, WakeOptions,
 };
-pub use relaxation::{Norms, RelaxationWake};
+pub use relaxation::{Norms, RelaxationWake, tip_rows};
 pub use time_marching::{StepReport, TimeMarchingWake};
 pub use velocity_field::{InducedVelocity, Prescribed, VortexSegments};

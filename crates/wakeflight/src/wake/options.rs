@@ -59,6 +59,28 @@ pub enum InboardWake {
     Sheet,
 }
 
+/// Free filaments that leave a blade.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Trailers {
+    /// One, the tip vortex.
+    Tip,
+    /// One at every edge between panels, from root to tip, joined by shed vortices: a lattice of vortex rings.
+    FullSpan,
+}
+
+/// Shed vortices of a full-span wake that blades and markers see.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ShedWake {
+    /// None: trailing vortices only.
+    None,
+    /// All, but a blade sees what it shed over its near wake gathered at the near wake's end.
+    Beyond,
+    /// All, at the places where they are.
+    All,
+}
+
 /// Distance that enters the core factor of a segment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -115,6 +137,18 @@ pub struct WakeOptions {
     /// Weight of the second difference in time that is added to the middle level, 0: none.
     #[serde(default = "default::zero")]
     pub time_filter: f64,
+    /// Free filaments of a blade.
+    #[serde(default = "default::trailers")]
+    pub trailers: Trailers,
+    /// Trailers per blade of a full-span wake; 0: one at every edge of the bound elements.
+    #[serde(default = "default::none")]
+    pub n_trailers: usize,
+    /// Core radius of the trailers of a full-span wake at their release (fraction of R).
+    #[serde(default = "default::core_radius")]
+    pub trailer_core: f64,
+    /// Shed vortices of a full-span wake.
+    #[serde(default = "default::shed_wake")]
+    pub shed_wake: ShedWake,
     /// Rule for the strength of the tip vortex.
     #[serde(default = "default::tip_strength")]
     pub tip_strength: TipStrength,
@@ -130,7 +164,7 @@ pub struct WakeOptions {
     /// Speed of the sheet along the shaft over the mean induced velocity.
     #[serde(default = "default::one")]
     pub sheet_factor: f64,
-    /// Core radius of the tip vortex at its release (fraction of R).
+    /// Core radius of the tip vortex, and of the sheet, at their release (fraction of R).
     #[serde(default = "default::core_radius")]
     pub core_radius: f64,
     /// Growth of the square of the core radius, over R^2, per radian of age.
@@ -191,6 +225,12 @@ mod default {
     }
     pub fn form() -> Form {
         Form::Displacement
+    }
+    pub fn trailers() -> Trailers {
+        Trailers::Tip
+    }
+    pub fn shed_wake() -> ShedWake {
+        ShedWake::Beyond
     }
     pub fn tip_strength() -> TipStrength {
         TipStrength::Equivalent
@@ -270,6 +310,10 @@ impl WakeOptions {
             predictor: default::predictor(),
             form: default::form(),
             time_filter: default::zero(),
+            trailers: default::trailers(),
+            n_trailers: default::none(),
+            trailer_core: default::core_radius(),
+            shed_wake: default::shed_wake(),
             tip_strength: default::tip_strength(),
             tip_strength_inner: default::half(),
             inboard_wake: default::inboard_wake(),
@@ -304,6 +348,23 @@ impl WakeOptions {
     /// First marker beyond the near wake.
     pub fn near_wake_markers(&self) -> usize {
         whole(self.near_wake_angle / self.delta_psi()).unwrap_or(0)
+    }
+
+    /// Free filaments of a blade.
+    pub fn trailers_per_blade(&self) -> usize {
+        match self.trailers {
+            Trailers::Tip => 1,
+            Trailers::FullSpan if self.n_trailers == 0 => self.n_stations + 1,
+            Trailers::FullSpan => self.n_trailers,
+        }
+    }
+
+    /// Core radius of the free filaments at their release (fraction of R).
+    pub fn release_core(&self) -> f64 {
+        match self.trailers {
+            Trailers::Tip => self.core_radius,
+            Trailers::FullSpan => self.trailer_core,
+        }
     }
 
     /// Tip speed [m/s].
@@ -375,6 +436,26 @@ impl WakeOptions {
             "time_filter",
             self.time_filter,
             "from 0 to less than 0.5, and 0 unless form is displacement",
+        )?;
+        let full_span = self.trailers == Trailers::FullSpan;
+        demand(
+            self.n_trailers == 0 || (2..=self.n_stations + 1).contains(&self.n_trailers),
+            "n_trailers",
+            self.n_trailers,
+            &format!("0 or from 2 to n_stations + 1 = {}", self.n_stations + 1),
+        )?;
+        demand(not_negative(self.trailer_core), "trailer_core", self.trailer_core, "not negative")?;
+        demand(
+            !full_span || self.inboard_wake == InboardWake::None,
+            "inboard_wake",
+            "sheet",
+            "none with full-span trailers, which are the inboard wake",
+        )?;
+        demand(
+            !full_span || self.release_radius == 1.0,
+            "release_radius",
+            self.release_radius,
+            "1 with full-span trailers, which leave from the edges of the bound elements",
         )?;
         demand(
             self.tip_strength_inner >= 0.0 && self.tip_strength_inner < 1.0,
@@ -519,6 +600,10 @@ mod tests {
         assert!(refused(&|o| o.turns = 2.01).contains("turns = 2.01"));
         assert!(refused(&|o| o.near_wake_angle = 0.5).contains("near_wake_angle = 0.5"));
         assert!(refused(&|o| o.radius = f64::NAN).contains("radius = NaN"));
+        let full_span = |o: &mut WakeOptions| o.trailers = Trailers::FullSpan;
+        assert!(refused(&|o| (full_span(o), o.inboard_wake = InboardWake::Sheet).0).contains("inboard_wake"));
+        assert!(refused(&|o| (full_span(o), o.n_trailers = 22).0).contains("n_stations + 1 = 21"));
+        assert!(refused(&|o| (full_span(o), o.release_radius = 0.98).0).contains("release_radius = 0.98"));
         assert!(refused(&|o| o.relaxation = 0.0).contains("relaxation = 0"));
     }
 

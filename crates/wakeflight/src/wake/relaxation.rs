@@ -2,12 +2,12 @@
 
 use super::error::{WakeError, finite, length};
 use super::filament::{aged_core_squared, distance, stretched_core_squared};
-use super::geometry::{BladeGrid, release_point};
+use super::geometry::{BladeGrid, release_points};
 use super::inboard_sheet;
 use super::initial;
 use super::options::{BladeState, HubMotion, WakeOptions};
 use super::stencils;
-use super::tip_strength::tip_circulation;
+use super::trailers;
 use super::velocity_field::{
     InducedVelocity, RotorInstant, VortexSegments, marker_velocity, point_velocity, station_inflow, sum,
 };
@@ -22,7 +22,7 @@ pub struct Norms {
     pub first_turn: f64,
 }
 
-/// Tip vortices periodic in azimuth: one surface r(psi, zeta) that serves every blade.
+/// Free filaments periodic in azimuth: one surface r(psi, zeta) for each trailer of a blade, serving every blade.
 ///
 /// dr/dpsi + dr/dzeta = V/omega, five-point central differences in both; blade b at azimuth index l uses row
 /// l + b n_azimuths/n_blades. Rows are the azimuths psi_l = l delta_psi, l = 0 ... steps_per_revolution - 1.
@@ -37,12 +37,13 @@ pub struct RelaxationWake<F: InducedVelocity = VortexSegments> {
     pub(crate) blades: Vec<BladeState>,
     /// Bound circulation (n_azimuths, n_stations) [m2/s].
     pub(crate) circulation: Vec<f64>,
-    tip_circulation: Vec<f64>,
+    /// Circulation released (n_azimuths, n_trailers) [m2/s].
+    released: Vec<f64>,
     sheet_strength: Vec<f64>,
     sheet_release: Vec<[f64; 3]>,
-    /// Release points (n_azimuths) [m, `_h`].
+    /// Release points (n_azimuths, n_trailers) [m, `_h`].
     pub(crate) release: Vec<[f64; 3]>,
-    /// Markers (n_azimuths, n_segments + 1) [m, `_h`].
+    /// Markers (n_azimuths, n_trailers, n_segments + 1) [m, `_h`].
     pub(crate) position: Vec<[f64; 3]>,
     core_squared: Vec<f64>,
     sweeps: u64,
@@ -70,7 +71,8 @@ impl<F: InducedVelocity> RelaxationWake<F> {
         hub.validate()?;
         finite("mean_inflow", &[mean_inflow])?;
         let n_psi = options.steps_per_revolution;
-        let (n_k, n_sheet) = (options.n_segments(), options.sheet_filaments());
+        let (n_k, n_t, n_sheet) =
+            (options.n_segments(), options.trailers_per_blade(), options.sheet_filaments());
         let aged: Vec<f64> = (0..n_k).map(|k| aged_core_squared(&options, k)).collect();
         let mut wake = RelaxationWake {
             grid: BladeGrid::new(&options),
@@ -79,12 +81,12 @@ impl<F: InducedVelocity> RelaxationWake<F> {
             mean_inflow,
             blades: vec![BladeState::default(); n_psi],
             circulation: vec![0.0; n_psi * options.n_stations],
-            tip_circulation: vec![0.0; n_psi],
+            released: vec![0.0; n_psi * n_t],
             sheet_strength: vec![0.0; n_psi * n_sheet],
             sheet_release: vec![[0.0; 3]; n_psi * n_sheet],
-            release: vec![[0.0; 3]; n_psi],
-            position: vec![[0.0; 3]; n_psi * (n_k + 1)],
-            core_squared: aged.repeat(n_psi),
+            release: vec![[0.0; 3]; n_psi * n_t],
+            position: vec![[0.0; 3]; n_psi * n_t * (n_k + 1)],
+            core_squared: aged.repeat(n_psi * n_t),
             sweeps: 0,
             evaluations: 0,
             options,
@@ -114,30 +116,33 @@ impl<F: InducedVelocity> RelaxationWake<F> {
         finite("circulation", circulation)?;
         self.hub = hub.felt(&self.options);
         self.circulation.copy_from_slice(circulation);
-        let n_sheet = self.options.sheet_filaments();
+        let (n_t, n_sheet) = (self.options.trailers_per_blade(), self.options.sheet_filaments());
         for (l, gamma) in circulation.chunks_exact(n_r).enumerate() {
-            let tip = tip_circulation(&self.options, &self.grid, gamma);
-            self.tip_circulation[l] = tip;
+            let strengths = trailers::strengths(&self.options, &self.grid, gamma);
             if n_sheet > 0 {
-                let sheet = inboard_sheet::strengths(&self.options, &self.grid, gamma, tip);
+                let sheet = inboard_sheet::strengths(&self.options, &self.grid, gamma, strengths[0]);
                 self.sheet_strength[l * n_sheet..(l + 1) * n_sheet].copy_from_slice(&sheet);
             }
+            self.released[l * n_t..(l + 1) * n_t].copy_from_slice(&strengths);
         }
         let before = self.release.clone();
         self.place(blades_by_azimuth);
         if self.sweeps == 0 {
             self.restart();
-        } else {
-            for l in 0..n_psi {
+            return Ok(());
+        }
+        for l in 0..n_psi {
+            for t in 0..n_t {
                 for k in 0..=self.options.n_segments() {
-                    let (old, new) = (before[self.row(l, k)], self.release[self.row(l, k)]);
-                    let i = self.index(l, k);
+                    let born = self.row(l, k) * n_t + t;
+                    let (old, new) = (before[born], self.release[born]);
+                    let i = self.index(l, t, k);
                     for c in 0..3 {
                         self.position[i][c] += new[c] - old[c];
                     }
                 }
-                let i = self.index(l, 0);
-                self.position[i] = self.release[l];
+                let i = self.index(l, t, 0);
+                self.position[i] = self.release[l * n_t + t];
             }
         }
         Ok(())
@@ -174,19 +179,24 @@ impl<F: InducedVelocity> RelaxationWake<F> {
         &self.grid
     }
 
-    /// Markers (n_azimuths, n_segments + 1) [m, `_h`].
+    /// Markers of every trailer, root to tip (n_azimuths, n_trailers, n_segments + 1) [m, `_h`].
     pub fn position(&self) -> &[[f64; 3]] {
         &self.position
     }
 
-    /// Core radii of the segments (n_azimuths, n_segments) [m].
+    /// Markers of the tip trailer (n_azimuths, n_segments + 1) [m, `_h`].
+    pub fn tip_position(&self) -> Vec<[f64; 3]> {
+        tip_rows(&self.position, self.options.trailers_per_blade(), self.options.n_segments() + 1)
+    }
+
+    /// Core radii of the segments (n_azimuths, n_trailers, n_segments) [m].
     pub fn core_radius(&self) -> Vec<f64> {
         self.core_squared.iter().map(|c| c.sqrt()).collect()
     }
 
-    /// Circulation of the tip vortex released at every azimuth (n_azimuths) [m2/s].
-    pub fn tip_circulation(&self) -> &[f64] {
-        &self.tip_circulation
+    /// Circulation of the trailers released at every azimuth, root to tip (n_azimuths, n_trailers) [m2/s].
+    pub fn released_circulation(&self) -> &[f64] {
+        &self.released
     }
 
     /// Segment evaluations so far.
@@ -226,9 +236,9 @@ impl<F: InducedVelocity> RelaxationWake<F> {
         self.instant_of(azimuth_index % self.options.steps_per_revolution, &self.position, &self.core_squared)
     }
 
-    /// Index of marker `k` of row `l`.
-    pub(crate) fn index(&self, l: usize, k: usize) -> usize {
-        l * (self.options.n_segments() + 1) + k
+    /// Index of marker `k` of trailer `t` of row `l`.
+    pub(crate) fn index(&self, l: usize, t: usize, k: usize) -> usize {
+        (l * self.options.trailers_per_blade() + t) * (self.options.n_segments() + 1) + k
     }
 
     /// Row `k` steps before row `l`.
@@ -250,11 +260,12 @@ impl<F: InducedVelocity> RelaxationWake<F> {
 
     /// Puts the blade at every azimuth.
     fn place(&mut self, flap_lead: &[(f64, f64)]) {
-        let n_sheet = self.options.sheet_filaments();
+        let (n_t, n_sheet) = (self.options.trailers_per_blade(), self.options.sheet_filaments());
         for (l, (flap, lead)) in flap_lead.iter().enumerate() {
             let blade = BladeState { psi: self.azimuth(l), flap: *flap, lead: *lead };
             self.blades[l] = blade;
-            self.release[l] = release_point(&self.options, &blade);
+            let points = release_points(&self.options, &self.grid, &blade);
+            self.release[l * n_t..(l + 1) * n_t].copy_from_slice(&points);
             if n_sheet > 0 {
                 let points = inboard_sheet::release_points(&self.options, &blade);
                 self.sheet_release[l * n_sheet..(l + 1) * n_sheet].copy_from_slice(&points);
@@ -265,17 +276,15 @@ impl<F: InducedVelocity> RelaxationWake<F> {
     /// Sets the geometry to the rigid guess.
     fn restart(&mut self) {
         let delta = self.options.delta_psi();
+        let n_t = self.options.trailers_per_blade();
         for l in 0..self.options.steps_per_revolution {
-            for k in 0..=self.options.n_segments() {
-                let release = self.release[self.row(l, k)];
-                let i = self.index(l, k);
-                self.position[i] = initial::tip_vortex(
-                    &self.options,
-                    &self.hub,
-                    self.mean_inflow,
-                    release,
-                    k as f64 * delta,
-                );
+            for t in 0..n_t {
+                for k in 0..=self.options.n_segments() {
+                    let release = self.release[self.row(l, k) * n_t + t];
+                    let (i, zeta) = (self.index(l, t, k), k as f64 * delta);
+                    self.position[i] =
+                        initial::tip_vortex(&self.options, &self.hub, self.mean_inflow, release, zeta);
+                }
             }
         }
         self.core_squared = self.cores(&self.position);
@@ -283,21 +292,25 @@ impl<F: InducedVelocity> RelaxationWake<F> {
 
     /// Squares of the core radii that belong to a geometry.
     fn cores(&self, position: &[[f64; 3]]) -> Vec<f64> {
-        let n_k = self.options.n_segments();
-        if !self.options.core_stretching {
-            return self.core_squared.clone();
-        }
+        let (n_k, n_t) = (self.options.n_segments(), self.options.trailers_per_blade());
         let mut cores = self.core_squared.clone();
-        let span = |l: usize, k: usize| distance(position[self.index(l, k)], position[self.index(l, k + 1)]);
+        if !self.options.core_stretching {
+            return cores;
+        }
+        let span = |l: usize, t: usize, k: usize| {
+            distance(position[self.index(l, t, k)], position[self.index(l, t, k + 1)])
+        };
         for k in 1..n_k {
             for l in 0..self.options.steps_per_revolution {
                 let past = self.row(l, 1);
-                cores[l * n_k + k] = stretched_core_squared(
-                    &self.options,
-                    cores[past * n_k + k - 1],
-                    span(past, k - 1),
-                    span(l, k),
-                );
+                for t in 0..n_t {
+                    cores[(l * n_t + t) * n_k + k] = stretched_core_squared(
+                        &self.options,
+                        cores[(past * n_t + t) * n_k + k - 1],
+                        span(past, t, k - 1),
+                        span(l, t, k),
+                    );
+                }
             }
         }
         cores
@@ -306,9 +319,10 @@ impl<F: InducedVelocity> RelaxationWake<F> {
     /// Rotor and wake at row `l` with a given geometry.
     fn instant_of(&self, l: usize, position: &[[f64; 3]], core_squared: &[f64]) -> RotorInstant {
         let options = &self.options;
-        let (n_k, n_r, n_sheet) = (options.n_segments(), options.n_stations, options.sheet_filaments());
+        let (n_k, n_t) = (options.n_segments(), options.trailers_per_blade());
+        let (n_r, n_sheet) = (options.n_stations, options.sheet_filaments());
         let carry = inboard_sheet::convection(options, &self.hub, self.mean_inflow);
-        let mut instant = RotorInstant::new(options);
+        let mut instant = RotorInstant::new(options, &self.grid);
         for blade in 0..options.n_blades {
             let row = self.blade_row(l, blade);
             instant.place_blade(
@@ -318,14 +332,17 @@ impl<F: InducedVelocity> RelaxationWake<F> {
                 &self.blades[row],
                 &self.circulation[row * n_r..(row + 1) * n_r],
             );
-            let from = self.index(row, 0);
-            let to = instant.tip.marker(blade, 0);
-            instant.tip.position[to..=to + n_k].copy_from_slice(&position[from..=from + n_k]);
-            instant.tip.core_squared[blade * n_k..(blade + 1) * n_k]
-                .copy_from_slice(&core_squared[row * n_k..(row + 1) * n_k]);
+            let (from, to) = (self.index(row, 0, 0), instant.free.marker(blade * n_t, 0));
+            let (markers, cores) = (n_t * (n_k + 1), n_t * n_k);
+            instant.free.position[to..to + markers].copy_from_slice(&position[from..from + markers]);
+            instant.free.core_squared[blade * cores..(blade + 1) * cores]
+                .copy_from_slice(&core_squared[row * cores..(row + 1) * cores]);
             for k in 0..=n_k {
                 let born = self.row(row, k);
-                instant.tip.circulation[to + k] = self.tip_circulation[born];
+                for t in 0..n_t {
+                    let m = instant.free.marker(blade * n_t + t, k);
+                    instant.free.circulation[m] = self.released[born * n_t + t];
+                }
                 let age = k as f64 * options.delta_psi() / options.omega;
                 for s in 0..n_sheet {
                     let m = instant.sheet.marker(blade * n_sheet + s, k);
@@ -338,9 +355,10 @@ impl<F: InducedVelocity> RelaxationWake<F> {
         instant
     }
 
-    /// Velocity over omega of every marker of a geometry (n_azimuths, n_segments + 1) [m].
+    /// Velocity over omega of every marker of a geometry (n_azimuths, n_trailers, n_segments + 1) [m].
     fn velocity(&mut self, position: &[[f64; 3]], core_squared: &[f64]) -> Vec<[f64; 3]> {
-        let n_k = self.options.n_segments();
+        let n_t = self.options.trailers_per_blade();
+        let markers = n_t * (self.options.n_segments() + 1);
         let mut velocity = vec![[0.0; 3]; position.len()];
         let mut at_instant = Vec::new();
         for l in 0..self.options.steps_per_revolution / self.options.n_blades {
@@ -348,10 +366,10 @@ impl<F: InducedVelocity> RelaxationWake<F> {
             self.evaluations +=
                 marker_velocity(&self.field, &self.options, &instant, &self.hub, &mut at_instant);
             for blade in 0..self.options.n_blades {
-                let to = self.index(self.blade_row(l, blade), 0);
-                let from = instant.tip.marker(blade, 0);
-                for k in 0..=n_k {
-                    velocity[to + k] = at_instant[from + k].map(|v| v / self.options.omega);
+                let to = self.index(self.blade_row(l, blade), 0, 0);
+                let from = instant.free.marker(blade * n_t, 0);
+                for i in 0..markers {
+                    velocity[to + i] = at_instant[from + i].map(|v| v / self.options.omega);
                 }
             }
         }
@@ -360,20 +378,22 @@ impl<F: InducedVelocity> RelaxationWake<F> {
 
     /// Geometry from a velocity field: every marker advanced along its characteristic.
     fn advanced(&self, velocity: &[[f64; 3]]) -> Vec<[f64; 3]> {
-        let step = self.options.delta_psi();
+        let (step, n_t) = (self.options.delta_psi(), self.options.trailers_per_blade());
         let mut position = vec![[0.0; 3]; self.position.len()];
-        for l in 0..self.options.steps_per_revolution {
-            position[self.index(l, 0)] = self.release[l];
+        for (i, release) in self.release.iter().enumerate() {
+            position[self.index(0, i, 0)] = *release;
         }
         for k in 1..=self.options.n_segments() {
             for l in 0..self.options.steps_per_revolution {
                 let past = self.row(l, 1);
-                let (a, b) = (self.index(l, k), self.index(past, k));
-                let (c, d) = (self.index(l, k - 1), self.index(past, k - 1));
-                let advance: [f64; 3] = std::array::from_fn(|i| {
-                    step * 0.25 * (velocity[a][i] + velocity[b][i] + velocity[c][i] + velocity[d][i])
-                });
-                position[a] = stencils::central(position[d], advance);
+                for t in 0..n_t {
+                    let (a, b) = (self.index(l, t, k), self.index(past, t, k));
+                    let (c, d) = (self.index(l, t, k - 1), self.index(past, t, k - 1));
+                    let advance: [f64; 3] = std::array::from_fn(|i| {
+                        step * 0.25 * (velocity[a][i] + velocity[b][i] + velocity[c][i] + velocity[d][i])
+                    });
+                    position[a] = stencils::central(position[d], advance);
+                }
             }
         }
         position
@@ -419,10 +439,10 @@ impl<F: InducedVelocity> RelaxationWake<F> {
         }
         self.core_squared = self.cores(&self.position);
         self.sweeps += 1;
-        let n_psi = self.options.steps_per_revolution as f64;
+        let lines = self.release.len() as f64;
         Ok(Norms {
-            all: (all / (n_psi * (n_k + 1) as f64)).sqrt() / self.options.radius,
-            first_turn: (first_turn / (n_psi * (first + 1) as f64)).sqrt() / self.options.radius,
+            all: (all / (lines * (n_k + 1) as f64)).sqrt() / self.options.radius,
+            first_turn: (first_turn / (lines * (first + 1) as f64)).sqrt() / self.options.radius,
         })
     }
 
@@ -439,4 +459,9 @@ impl<F: InducedVelocity> RelaxationWake<F> {
             }),
         }
     }
+}
+
+/// Last of every `n_trailers` rows of `length` values: what belongs to the trailers that leave the tips.
+pub fn tip_rows<T: Copy>(values: &[T], n_trailers: usize, length: usize) -> Vec<T> {
+    values.chunks_exact(length).skip(n_trailers - 1).step_by(n_trailers).flatten().copied().collect()
 }

@@ -1,13 +1,13 @@
-//! Time-accurate wake: the tip vortices advance with the blades, step by step [bhagwat2001].
+//! Time-accurate wake: the free filaments advance with the blades, step by step [bhagwat2001].
 
 use super::error::{WakeError, finite, length};
 use super::filament::{aged_core_squared, distance, stretched_core_squared};
-use super::geometry::{BladeGrid, release_point};
+use super::geometry::{BladeGrid, release_points};
 use super::inboard_sheet;
 use super::options::{BladeState, Form, HubMotion, Predictor, Scheme, WakeOptions};
-use super::relaxation::RelaxationWake;
+use super::relaxation::{RelaxationWake, tip_rows};
 use super::stencils::{Cell, unknown_corner};
-use super::tip_strength::tip_circulation;
+use super::trailers;
 use super::velocity_field::{
     InducedVelocity, RotorInstant, VortexSegments, marker_velocity, point_velocity, station_inflow, sum,
 };
@@ -28,7 +28,7 @@ pub struct StepReport {
     pub segment_evaluations: u64,
 }
 
-/// Tip vortices of every blade, marched in time with a fixed step of azimuth.
+/// Free filaments of every blade, marched in time with a fixed step of azimuth.
 ///
 /// dr/dpsi + dr/dzeta = V/omega; one predictor and one corrector per step. Three levels of geometry are kept, and with
 /// every marker its circulation and the place of its release.
@@ -43,7 +43,7 @@ pub struct TimeMarchingWake<F: InducedVelocity = VortexSegments> {
     instant: RotorInstant,
     /// Place that the unknown is measured from: release of the marker, or the origin in position form.
     carrier: Vec<[f64; 3]>,
-    /// Unknown at the levels n, n-1, n-2 (n_blades, n_segments + 1) [m].
+    /// Unknown at the levels n, n-1, n-2 (n_blades, n_trailers, n_segments + 1) [m].
     levels: [Vec<[f64; 3]>; 3],
     steps: u64,
     evaluations: u64,
@@ -60,21 +60,21 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
                 allowed: format!("less than steps_per_revolution = {}", options.steps_per_revolution),
             });
         }
-        let n_k = options.n_segments();
+        let (n_k, n_t) = (options.n_segments(), options.trailers_per_blade());
         let instant = relaxation.instant(azimuth_index);
-        let mut carrier = Vec::with_capacity(options.n_blades * (n_k + 1));
+        let mut carrier = Vec::with_capacity(instant.free.position.len());
         let mut levels: [Vec<[f64; 3]>; 3] = Default::default();
-        let from = |row: usize, k: usize| match options.form {
-            Form::Displacement => relaxation.release[relaxation.row(row, k)],
-            Form::Position => [0.0; 3],
-        };
-        for blade in 0..options.n_blades {
-            let row = relaxation.blade_row(azimuth_index, blade);
+        for i in 0..options.n_blades * n_t {
+            let (row, t) = (relaxation.blade_row(azimuth_index, i / n_t), i % n_t);
+            let from = |row: usize, k: usize| match options.form {
+                Form::Displacement => relaxation.release[relaxation.row(row, k) * n_t + t],
+                Form::Position => [0.0; 3],
+            };
             for k in 0..=n_k {
                 carrier.push(from(row, k));
                 for (m, level) in levels.iter_mut().enumerate() {
                     let past = relaxation.row(row, m);
-                    level.push(difference(relaxation.position[relaxation.index(past, k)], from(past, k)));
+                    level.push(difference(relaxation.position[relaxation.index(past, t, k)], from(past, k)));
                 }
             }
         }
@@ -149,8 +149,8 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
         let max_displacement = self.guard(&next)?;
 
         let mut curvature = 0.0;
-        for blade in 0..options.n_blades {
-            let m = next.tip.marker(blade, 0);
+        for filament in 0..next.free.n_filaments {
+            let m = next.free.marker(filament, 0);
             for i in m + 1..m + n_k {
                 for c in 0..3 {
                     curvature +=
@@ -158,7 +158,7 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
                 }
             }
         }
-        let n_inner = (options.n_blades * (n_k - 1)) as f64;
+        let n_inner = (next.free.n_filaments * (n_k - 1)) as f64;
         let odd_even = (curvature / n_inner).sqrt() / options.radius;
 
         if options.time_filter > 0.0 {
@@ -190,19 +190,24 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
         &self.grid
     }
 
-    /// Markers (n_blades, n_segments + 1) [m, `_h`].
+    /// Markers of every trailer, root to tip (n_blades, n_trailers, n_segments + 1) [m, `_h`].
     pub fn position(&self) -> &[[f64; 3]] {
-        &self.instant.tip.position
+        &self.instant.free.position
     }
 
-    /// Circulation of the markers (n_blades, n_segments + 1) [m2/s].
+    /// Markers of the tip trailers (n_blades, n_segments + 1) [m, `_h`].
+    pub fn tip_position(&self) -> Vec<[f64; 3]> {
+        tip_rows(self.position(), self.options.trailers_per_blade(), self.options.n_segments() + 1)
+    }
+
+    /// Circulation of the markers (n_blades, n_trailers, n_segments + 1) [m2/s].
     pub fn marker_circulation(&self) -> &[f64] {
-        &self.instant.tip.circulation
+        &self.instant.free.circulation
     }
 
-    /// Core radii of the segments (n_blades, n_segments) [m].
+    /// Core radii of the segments (n_blades, n_trailers, n_segments) [m].
     pub fn core_radius(&self) -> Vec<f64> {
-        self.instant.tip.core_squared.iter().map(|c| c.sqrt()).collect()
+        self.instant.free.core_squared.iter().map(|c| c.sqrt()).collect()
     }
 
     /// Blades at the present level.
@@ -289,7 +294,8 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
         circulation: &[f64],
     ) -> (RotorInstant, Vec<[f64; 3]>) {
         let options = &self.options;
-        let (n_k, n_r, n_sheet) = (options.n_segments(), options.n_stations, options.sheet_filaments());
+        let (n_k, n_t) = (options.n_segments(), options.trailers_per_blade());
+        let (n_r, n_sheet) = (options.n_stations, options.sheet_filaments());
         let mut next = self.instant.clone();
         let mut carrier = self.carrier.clone();
         let old_carry = inboard_sheet::convection(options, &self.hub, self.mean_inflow);
@@ -298,15 +304,16 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
         for (blade, state) in blades.iter().enumerate() {
             let gamma = &circulation[blade * n_r..(blade + 1) * n_r];
             next.place_blade(options, &self.grid, blade, state, gamma);
-            let m = next.tip.marker(blade, 0);
-            next.tip.circulation.copy_within(m..m + n_k, m + 1);
-            carrier.copy_within(m..m + n_k, m + 1);
-            let release = release_point(options, state);
-            carrier[m] = match options.form {
-                Form::Displacement => release,
-                Form::Position => [0.0; 3],
-            };
-            next.tip.position[m] = release;
+            for (t, release) in release_points(options, &self.grid, state).into_iter().enumerate() {
+                let m = next.free.marker(blade * n_t + t, 0);
+                next.free.circulation.copy_within(m..m + n_k, m + 1);
+                carrier.copy_within(m..m + n_k, m + 1);
+                carrier[m] = match options.form {
+                    Form::Displacement => release,
+                    Form::Position => [0.0; 3],
+                };
+                next.free.position[m] = release;
+            }
             if n_sheet > 0 {
                 for (s, point) in inboard_sheet::release_points(options, state).into_iter().enumerate() {
                     let m = next.sheet.marker(blade * n_sheet + s, 0);
@@ -333,9 +340,9 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
         let [now, past, older] = &self.levels;
         let scale = self.options.delta_psi() / self.options.omega;
         let mut new = vec![[0.0; 3]; now.len()];
-        for blade in 0..self.options.n_blades {
-            let m = next.tip.marker(blade, 0);
-            new[m] = difference(next.tip.position[m], carrier[m]);
+        for filament in 0..next.free.n_filaments {
+            let m = next.free.marker(filament, 0);
+            new[m] = difference(next.free.position[m], carrier[m]);
             for i in m..m + self.options.n_segments() {
                 let advance = velocity(i).map(|v| v * scale);
                 let cell = Cell {
@@ -356,7 +363,7 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
     /// Positions and cores of the new level from its unknown.
     fn place_markers(&self, next: &mut RotorInstant, carrier: &[[f64; 3]], unknown: &[[f64; 3]]) {
         let n_k = self.options.n_segments();
-        for (i, position) in next.tip.position.iter_mut().enumerate() {
+        for (i, position) in next.free.position.iter_mut().enumerate() {
             if i % (n_k + 1) != 0 {
                 *position = sum(carrier[i], unknown[i]);
             }
@@ -364,15 +371,15 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
         if !self.options.core_stretching {
             return;
         }
-        let old = &self.instant.tip;
-        for blade in 0..self.options.n_blades {
-            next.tip.core_squared[blade * n_k] = aged_core_squared(&self.options, 0);
+        let old = &self.instant.free;
+        for filament in 0..old.n_filaments {
+            next.free.core_squared[filament * n_k] = aged_core_squared(&self.options, 0);
             for k in 1..n_k {
-                next.tip.core_squared[blade * n_k + k] = stretched_core_squared(
+                next.free.core_squared[filament * n_k + k] = stretched_core_squared(
                     &self.options,
-                    old.core_squared[blade * n_k + k - 1],
-                    old.segment_length(blade, k - 1),
-                    next.tip.segment_length(blade, k),
+                    old.core_squared[filament * n_k + k - 1],
+                    old.segment_length(filament, k - 1),
+                    next.free.segment_length(filament, k),
                 );
             }
         }
@@ -381,10 +388,10 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
     /// Largest motion of a marker over R; an error beyond the limit or if a position is not finite.
     fn guard(&self, next: &RotorInstant) -> Result<f64, WakeError> {
         let mut largest: f64 = 0.0;
-        for filament in 0..self.options.n_blades {
-            let m = next.tip.marker(filament, 0);
+        for filament in 0..next.free.n_filaments {
+            let m = next.free.marker(filament, 0);
             for k in 1..=self.options.n_segments() {
-                let displacement = distance(next.tip.position[m + k], self.instant.tip.position[m + k - 1])
+                let displacement = distance(next.free.position[m + k], self.instant.free.position[m + k - 1])
                     / self.options.radius;
                 if displacement.is_nan() || displacement > LARGEST_DISPLACEMENT {
                     return Err(WakeError::Diverged {
@@ -410,12 +417,17 @@ fn release_circulation(
     blade: usize,
     gamma: &[f64],
 ) {
-    let tip = tip_circulation(options, grid, gamma);
-    let m = instant.tip.marker(blade, 0);
-    instant.tip.circulation[m] = tip;
+    let n_t = options.trailers_per_blade();
+    let strengths = trailers::strengths(options, grid, gamma);
+    for (t, strength) in strengths.iter().enumerate() {
+        let m = instant.free.marker(blade * n_t + t, 0);
+        instant.free.circulation[m] = *strength;
+    }
     let n_sheet = options.sheet_filaments();
     if n_sheet > 0 {
-        for (s, strength) in inboard_sheet::strengths(options, grid, gamma, tip).into_iter().enumerate() {
+        for (s, strength) in
+            inboard_sheet::strengths(options, grid, gamma, strengths[0]).into_iter().enumerate()
+        {
             let m = instant.sheet.marker(blade * n_sheet + s, 0);
             instant.sheet.circulation[m] = strength;
         }

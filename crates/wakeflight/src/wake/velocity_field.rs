@@ -2,7 +2,8 @@
 
 use super::filament::Filaments;
 use super::geometry::{BladeGrid, blade_point};
-use super::options::{BladeState, CoreDistance, HubMotion, WakeOptions};
+use super::lattice::{Viewer, bound, push_filament, push_shed};
+use super::options::{BladeState, CoreDistance, HubMotion, Trailers, WakeOptions};
 use crate::vortex::core::Core;
 use crate::vortex::curvature::curvature_velocity;
 use crate::vortex::induced_velocity::{Segments, add_segments_velocity};
@@ -90,8 +91,8 @@ pub(crate) fn segment_velocity(
 /// The rotor and its wake at one instant.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RotorInstant {
-    /// Tip vortices, one per blade.
-    pub tip: Filaments,
+    /// Free filaments, blade after blade, each from root to tip: the tip vortices, or all trailers.
+    pub free: Filaments,
     /// Filaments of the inboard sheet, blade after blade; none without a sheet.
     pub sheet: Filaments,
     /// Edges of the bound elements (n_blades, n_stations + 1) [m, `_h`].
@@ -100,17 +101,20 @@ pub struct RotorInstant {
     pub station: Vec<[f64; 3]>,
     /// Bound circulation (n_blades, n_stations) [m2/s].
     pub circulation: Vec<f64>,
+    /// Edges that the trailers of a blade leave from.
+    trailer_edges: Vec<usize>,
 }
 
 impl RotorInstant {
     /// Blades and empty filaments.
-    pub fn new(options: &WakeOptions) -> Self {
+    pub fn new(options: &WakeOptions, grid: &BladeGrid) -> Self {
         RotorInstant {
-            tip: Filaments::new(options, options.n_blades),
+            free: Filaments::new(options, options.n_blades * options.trailers_per_blade()),
             sheet: Filaments::new(options, options.n_blades * options.sheet_filaments()),
             edge: vec![[0.0; 3]; options.n_blades * (options.n_stations + 1)],
             station: vec![[0.0; 3]; options.n_blades * options.n_stations],
             circulation: vec![0.0; options.n_blades * options.n_stations],
+            trailer_edges: grid.trailer_edges.clone(),
         }
     }
 
@@ -141,26 +145,29 @@ impl RotorInstant {
             Some(_) => options.station_core_floor * options.chord,
             None => 0.0,
         };
-        let n_sheet = options.sheet_filaments();
-        let first = |blade: usize| if own_blade == Some(blade) { options.near_wake_markers() } else { 0 };
-        for i in 0..self.tip.n_filaments {
-            push_filament(&mut segments, options, &self.tip, i, first(i), floor);
+        let (n_free, n_sheet) = (options.trailers_per_blade(), options.sheet_filaments());
+        let own = |blade: usize| own_blade == Some(blade);
+        let viewer =
+            |blade: usize| Viewer { first: if own(blade) { options.near_wake_markers() } else { 0 }, floor };
+        for i in 0..self.free.n_filaments {
+            push_filament(&mut segments, options, &self.free, i, viewer(i / n_free));
+        }
+        for blade in 0..options.n_blades {
+            push_shed(&mut segments, options, &self.free, blade, own(blade), viewer(blade));
         }
         for i in 0..self.sheet.n_filaments {
-            push_filament(&mut segments, options, &self.sheet, i, first(i / n_sheet), floor);
+            push_filament(&mut segments, options, &self.sheet, i, viewer(i / n_sheet));
         }
         let n = options.n_stations;
         let bound_core = (options.bound_core * options.chord).max(floor);
-        for blade in (0..options.n_blades).filter(|b| own_blade != Some(*b)) {
-            for j in 0..n {
+        for blade in (0..options.n_blades).filter(|b| !own(*b)) {
+            let strength: Vec<f64> = match options.trailers {
+                Trailers::Tip => self.circulation[blade * n..(blade + 1) * n].to_vec(),
+                Trailers::FullSpan => bound(options, &self.trailer_edges, &self.free, blade).collect(),
+            };
+            for (j, gamma) in strength.into_iter().enumerate() {
                 let edge = blade * (n + 1) + j;
-                push(
-                    &mut segments,
-                    self.edge[edge],
-                    self.edge[edge + 1],
-                    self.circulation[blade * n + j],
-                    bound_core,
-                );
+                push(&mut segments, self.edge[edge], self.edge[edge + 1], gamma, bound_core);
             }
         }
         segments
@@ -181,47 +188,7 @@ pub(crate) fn push(
     segments.core_radius.push(core_radius);
 }
 
-/// Appends filament `i` from marker `first` on, and the displaced repeats of its last turn (the far wake).
-fn push_filament(
-    segments: &mut Segments,
-    options: &WakeOptions,
-    filaments: &Filaments,
-    i: usize,
-    first: usize,
-    floor: f64,
-) {
-    let n = filaments.n_segments;
-    let m = filaments.marker(i, 0);
-    let mut segment = |k: usize, shift: [f64; 3]| {
-        let (a, b) = (filaments.position[m + k], filaments.position[m + k + 1]);
-        let strength = 0.5 * (filaments.circulation[m + k] + filaments.circulation[m + k + 1]);
-        let core = filaments.core_squared[i * n + k].sqrt().max(floor);
-        push(segments, sum(a, shift), sum(b, shift), strength, core);
-    };
-    for k in first..n {
-        segment(k, [0.0; 3]);
-    }
-    if options.far_wake_turns == 0 {
-        return;
-    }
-    // mean displacement of the markers over the last turn
-    let turn = options.steps_per_revolution;
-    let mut pitch = [0.0; 3];
-    for k in n + 1 - turn..=n {
-        let (a, b) = (filaments.position[m + k - turn], filaments.position[m + k]);
-        for c in 0..3 {
-            pitch[c] += (b[c] - a[c]) / turn as f64;
-        }
-    }
-    for repeat in 1..=options.far_wake_turns {
-        let shift = pitch.map(|s| s * repeat as f64);
-        for k in n - turn..n {
-            segment(k, shift);
-        }
-    }
-}
-
-/// Velocity of the markers of the tip vortices relative to the hub axes, with the wind [m/s, `_h`]; also the number of
+/// Velocity of the markers of the free filaments relative to the hub axes, with the wind [m/s, `_h`]; also the number of
 /// segment evaluations.
 pub fn marker_velocity<F: InducedVelocity>(
     field: &F,
@@ -230,28 +197,29 @@ pub fn marker_velocity<F: InducedVelocity>(
     hub: &HubMotion,
     velocity: &mut Vec<[f64; 3]>,
 ) -> u64 {
-    let tip = &instant.tip;
+    let free = &instant.free;
     velocity.clear();
-    velocity.extend(tip.position.iter().map(|p| hub.wind(*p)));
+    velocity.extend(free.position.iter().map(|p| hub.wind(*p)));
     let segments = instant.segments(options, None);
-    field.add(&tip.position, &segments, velocity);
-    for i in 0..tip.n_filaments {
-        for k in 1..tip.n_segments {
-            let m = tip.marker(i, k);
+    field.add(&free.position, &segments, velocity);
+    for i in 0..free.n_filaments {
+        for k in 1..free.n_segments {
+            let m = free.marker(i, k);
             let core = (0.5
-                * (tip.core_squared[i * tip.n_segments + k - 1] + tip.core_squared[i * tip.n_segments + k]))
+                * (free.core_squared[i * free.n_segments + k - 1]
+                    + free.core_squared[i * free.n_segments + k]))
                 .sqrt();
             let local = field.self_induced(
-                tip.position[m - 1],
-                tip.position[m],
-                tip.position[m + 1],
-                tip.circulation[m],
+                free.position[m - 1],
+                free.position[m],
+                free.position[m + 1],
+                free.circulation[m],
                 core,
             );
             add_to(&mut velocity[m], local);
         }
     }
-    (tip.position.len() * segments.start.len()) as u64
+    (free.position.len() * segments.start.len()) as u64
 }
 
 /// Induced inflow at the blade stations without that of the own near wake, -v_z/(omega R) (n_blades, n_stations); also
