@@ -78,7 +78,8 @@ pub fn tree_is_faster(n_points: usize, n_segments: usize) -> bool {
 /// Adds to `velocity` the velocity that `filaments` induce at `points` [m/s], by the method of choice.
 ///
 /// The error of the tree is below `tolerance` times the largest induced velocity at the points: not a theorem, but what
-/// holds in every test, with a margin of three and more; [`Account::truncation_bound`] is a theorem.
+/// holds in every test, at the default with a margin of two and more (at 1e-5 and the distance to the line 9e-6 was
+/// measured); [`Account::truncation_bound`] is a theorem.
 pub fn add_filaments_velocity_by(
     method: Method,
     points: &[[f64; 3]],
