@@ -97,7 +97,7 @@ def figure(runs: Runs, reference: xr.Dataset) -> Figure:
     for axes, (variable, label) in zip(figure.subplots(1, 3), VARIABLES.items(), strict=True):
         for way, color, mark in zip(WAYS, style.COLORS, "os", strict=False):
             steps = [s for s in STEPS if runs[name(s, way)] is not reference]
-            axes.loglog(
+            axes.plot(
                 steps,
                 [100 * error(runs[name(s, way)], reference, variable) for s in steps],
                 mark + "-",
@@ -106,6 +106,6 @@ def figure(runs: Runs, reference: xr.Dataset) -> Figure:
             )
         axes.set(xlabel="step of azimuth [deg]", ylabel=f"{label}: difference [% of the excursion]")
         axes.set_xticks(STEPS, [f"{s:g}" for s in STEPS])
-        axes.minorticks_off()
+        axes.set_ylim(bottom=0.0)
         axes.legend()
     return figure
