@@ -71,8 +71,7 @@ impl Cells {
             .collect();
         let mut order: Vec<usize> = (0..start.len()).collect();
         let given = Given { sources, start, middle };
-        let mut tree = Self::default();
-        tree.sources = Strands::with_capacity(order.len());
+        let mut tree = Self { sources: Strands::with_capacity(order.len()), ..Self::default() };
         if !order.is_empty() {
             tree.add_cell(&given, &mut order);
         }
