@@ -28,8 +28,8 @@ RUST_ORDER = (
 # each module may import itself and the rows before its own; a new module needs its place here
 PYTHON_ORDER = (
     {"_core", "errors", "schema"},
-    {"units", "references", "vortex", "progress", "wing"},
-    {"condition", "inflow", "results", "maneuvers"},
+    {"units", "references", "vortex", "progress"},
+    {"condition", "inflow", "results", "maneuvers", "wing"},
     {"aircraft"},
     {"model", "modes"},
     {"integrators", "exchange"},

@@ -210,3 +210,14 @@ def test_a_hovering_wake_settles_at_little_thrust():
     stand = wf.tunnel("uh60a", collective="10.5 deg", blades="rigid", flapping="zero", inflow="relaxation")
     assert stand.settled
     assert 0.0 < stand.ct < 0.003
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_a_marching_rotor_answers_like_a_relaxed_one_in_forward_flight():
+    # two wakes with one steady state: thrust within the spread of the schemes, inflow asked for off the blades too
+    common = {"collective": "12 deg", "speed": "80 kt", "blades": "rigid", "flapping": "zero"}
+    relaxed = wf.tunnel("uh60a", inflow="relaxation", **common)
+    marched = wf.tunnel("uh60a", inflow="time-marching", revolutions=6, averaged=2, **common)
+    assert marched.ct == pytest.approx(relaxed.ct, rel=0.03)
+    probe = [[0.5 * relaxed.radius, 0.0, -0.5 * relaxed.radius]]
+    assert marched.wake_velocity(probe)[0, 2] == pytest.approx(relaxed.wake_velocity(probe)[0, 2], rel=0.1)

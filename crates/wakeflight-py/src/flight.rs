@@ -4,8 +4,8 @@ use crate::aircraft::{PyAircraft, PyInputs};
 use crate::rotor::motion;
 use crate::stand::{PyStand, hub_state};
 use crate::wake::{
-    RelaxationWake, flat, marched_lattice, matrix, parse_options, py_error, tip_circulation, tip_core,
-    vectors,
+    RelaxationWake, TimeMarchingWake as PyTimeMarchingWake, flat, marched_lattice, matrix, parse_options,
+    py_error, tip_circulation, tip_core, vectors,
 };
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyArray4, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::{PyArithmeticError, PyValueError};
@@ -168,6 +168,11 @@ impl PyMarchingExchange {
         let start = [lambda_far, circulation, inflow].map(|a| flat(&a));
         let [far, gamma, total] = start;
         Ok(Self { inner: MarchingExchange::new(wake, exchange, far, gamma, total) })
+    }
+
+    /// A copy of the wake as it is now.
+    fn snapshot(&self) -> PyTimeMarchingWake {
+        PyTimeMarchingWake { inner: self.inner.wake.clone() }
     }
 
     /// States `y` reached, first blade at step `index` of its revolution: circulation, wake, inflow, circulation.

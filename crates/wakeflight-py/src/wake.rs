@@ -280,8 +280,8 @@ type Report = (f64, f64, u64);
 /// Time-accurate wake.
 #[pyclass(module = "wakeflight._core")]
 #[derive(Clone)]
-struct TimeMarchingWake {
-    inner: wake::TimeMarchingWake,
+pub(crate) struct TimeMarchingWake {
+    pub(crate) inner: wake::TimeMarchingWake,
 }
 
 #[pymethods]

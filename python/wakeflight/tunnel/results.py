@@ -237,8 +237,6 @@ class Tunnel:
         if s.wake is None:
             raise InputError.of("inflow", self.model.inflow.name, "has no wake to ask; use relaxation or time-marching")
         if s.march is not None:
-            if not s.snapshots:
-                raise InputError.of("inflow", "time-marching", "keeps no wake to ask here; use relaxation")
             return np.mean([wake.wake_velocity(at) for wake in s.snapshots], axis=0)
         passage = range(self.model.steps_per_revolution // self.model.n_blades)
         return np.mean([s.wake.relaxation.wake_velocity(at, k) for k in passage], axis=0)

@@ -299,8 +299,7 @@ def march_revolution(
         rows.append(row)
         inflow.append(lam)
         path.append(march.position())
-        if hasattr(march.core, "snapshot"):
-            snapshots.append(march.core.snapshot())
+        snapshots.append(march.core.snapshot())
     rows, inflow = np.array(rows), np.array(inflow)
     psi = 2 * np.pi * rows.ravel() / march.n
     passages = model.core.passages(problem, x, psi, inflow.reshape(psi.size, -1))
