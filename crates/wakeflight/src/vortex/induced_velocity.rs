@@ -6,8 +6,7 @@ use super::dispatch::run;
 use super::kernel::Sum;
 use super::models::{ForModel, Model, for_core};
 use super::strands::Strands;
-use super::threads::pool;
-use rayon::prelude::*;
+use super::threads::share;
 
 /// Straight segments from `start` to `end`, one entry each.
 #[derive(Clone, Debug, Default)]
@@ -146,15 +145,13 @@ impl ForModel for Direct<'_> {
         let Self { points, strands, instruction_set, velocity } = self;
         debug_assert_eq!(points.len(), velocity.len());
         let worth_sharing = points.len() > CHUNK && points.len() * strands.pieces.len() > LEAST_SHARED_WORK;
-        match pool().filter(|_| worth_sharing) {
-            Some(pool) => pool.install(|| {
-                points.par_chunks(CHUNK).zip(velocity.par_chunks_mut(CHUNK)).for_each(
-                    |(points, velocity)| {
-                        run(Sum::<M, TO_SEGMENT>::new(points, strands, velocity), instruction_set);
-                    },
-                );
-            }),
-            None => run(Sum::<M, TO_SEGMENT>::new(points, strands, velocity), instruction_set),
+        let sum = |(points, velocity): (&[[f64; 3]], &mut [[f64; 3]])| {
+            run(Sum::<M, TO_SEGMENT>::new(points, strands, velocity), instruction_set);
+        };
+        if worth_sharing {
+            share(points.chunks(CHUNK).zip(velocity.chunks_mut(CHUNK)), sum);
+        } else {
+            sum((points, velocity));
         }
     }
 }

@@ -60,8 +60,29 @@ pub fn threads() -> Result<usize, ThreadsError> {
     }
 }
 
+/// Does `each` of the `pieces` of work; the calling thread begins at once, others join as they wake.
+///
+/// Work is handed out piece by piece: a thread that wakes late, or not at all, holds nobody up for longer than its own
+/// piece. Whichever thread does a piece, the piece is the same: results do not depend on the number of threads.
+pub(super) fn share<T: Send>(pieces: impl Iterator<Item = T> + Send, each: impl Fn(T) + Sync) {
+    let Some(pool) = pool() else { return pieces.for_each(each) };
+    let left = Mutex::new(pieces);
+    let next = || left.lock().unwrap_or_else(PoisonError::into_inner).next();
+    let work = || {
+        while let Some(piece) = next() {
+            each(piece);
+        }
+    };
+    pool.in_place_scope(|scope| {
+        for _ in 1..pool.current_num_threads() {
+            scope.spawn(|_| work());
+        }
+        work();
+    });
+}
+
 /// Pool for more than one thread, built at first use; none where one thread is asked for or no pool can be had.
-pub(super) fn pool() -> Option<Arc<ThreadPool>> {
+fn pool() -> Option<Arc<ThreadPool>> {
     let n = threads().unwrap_or(1);
     if n == 1 {
         return None;

@@ -10,9 +10,8 @@ use crate::vortex::kernel::{gathered, over_sources, scattered};
 use crate::vortex::lanes::Lanes;
 use crate::vortex::models::{ForModel, Model};
 use crate::vortex::roots::Roots;
-use crate::vortex::threads::pool;
+use crate::vortex::threads::share;
 use pulp::Simd;
-use rayon::prelude::*;
 use std::marker::PhantomData;
 
 /// Points that share their lists of cells; a multiple of every number of lanes.
@@ -97,19 +96,8 @@ impl ForModel for TreeSum<'_> {
             let model = PhantomData::<M>;
             run(BlockSum::<M, TO_SEGMENT> { points, cells, lists: &lists, velocity, model }, instruction_set);
         };
-        match pool() {
-            Some(pool) => pool.install(|| {
-                points
-                    .par_chunks(BLOCK)
-                    .zip(velocity.par_chunks_mut(BLOCK))
-                    .zip(&mut found)
-                    .for_each(|((points, velocity), found)| sum(points, velocity, found));
-            }),
-            None => {
-                let blocks = points.chunks(BLOCK).zip(velocity.chunks_mut(BLOCK));
-                blocks.zip(&mut found).for_each(|((points, velocity), found)| sum(points, velocity, found));
-            }
-        }
+        let blocks = points.chunks(BLOCK).zip(velocity.chunks_mut(BLOCK)).zip(&mut found);
+        share(blocks, |((points, velocity), found)| sum(points, velocity, found));
         for (i, added) in order.iter().zip(&velocity) {
             for c in 0..3 {
                 self.velocity[*i][c] += added[c];
