@@ -7,6 +7,7 @@ use super::circulation::BladeInstant;
 use super::hub::Rotor;
 use crate::blade::aerodynamics::Air;
 use crate::blade::loads::HubMotion;
+use crate::vortex::threads::share;
 use crate::wake::miss_distance::miss_distance_in_cores;
 use crate::wake::{
     BladeState, CirculationSolution, HubMotion as WakeHub, TimeMarchingWake, WakeError, near_wake_matrix,
@@ -161,16 +162,17 @@ impl MarchingExchange {
     fn solve(&mut self, at: &Place, ahead: bool) -> Result<usize, WakeError> {
         self.far_ahead(if ahead { 1.0 } else { 0.0 });
         let n = self.wake.options().n_stations;
-        let mut failed = 0;
-        for (b, (blade, near)) in self.blades.iter().zip(&self.near_wakes).enumerate() {
-            let span = b * n..(b + 1) * n;
-            let far = &self.far_held[span.clone()];
-            let solution = at.solved(blade, far, near, &self.circulation[span.clone()])?;
-            failed += usize::from(!solution.converged);
-            self.circulation[span.clone()].copy_from_slice(&solution.gamma);
-            self.inflow[span].copy_from_slice(&solution.inflow);
-        }
-        Ok(failed)
+        let mut outcomes: Vec<Result<bool, WakeError>> = vec![Ok(true); self.blades.len()];
+        let given = self.blades.iter().zip(&self.near_wakes).zip(self.far_held.chunks(n));
+        let kept = self.circulation.chunks_mut(n).zip(self.inflow.chunks_mut(n)).zip(&mut outcomes);
+        share(given.zip(kept), |(((blade, near), far), ((circulation, inflow), outcome))| {
+            *outcome = at.solved(blade, far, near, circulation).map(|solution| {
+                circulation.copy_from_slice(&solution.gamma);
+                inflow.copy_from_slice(&solution.inflow);
+                solution.converged
+            });
+        });
+        outcomes.into_iter().try_fold(0, |failed, outcome| Ok(failed + usize::from(!outcome?)))
     }
 
     /// Total inflow half a step ahead; circulation of the wake stays that of the present.

@@ -64,7 +64,7 @@ pub fn threads() -> Result<usize, ThreadsError> {
 ///
 /// Work is handed out piece by piece: a thread that wakes late, or not at all, holds nobody up for longer than its own
 /// piece. Whichever thread does a piece, the piece is the same: results do not depend on the number of threads.
-pub(super) fn share<T: Send>(pieces: impl Iterator<Item = T> + Send, each: impl Fn(T) + Sync) {
+pub(crate) fn share<T: Send>(pieces: impl Iterator<Item = T> + Send, each: impl Fn(T) + Sync) {
     let Some(pool) = pool() else { return pieces.for_each(each) };
     let left = Mutex::new(pieces);
     let next = || left.lock().unwrap_or_else(PoisonError::into_inner).next();

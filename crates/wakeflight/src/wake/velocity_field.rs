@@ -7,6 +7,7 @@ use super::options::{BladeState, CoreDistance, HubMotion, Trailers, WakeOptions}
 use crate::vortex::core::Core;
 use crate::vortex::curvature::curvature_velocity;
 use crate::vortex::induced_velocity::{Segments, add_segments_velocity};
+use crate::vortex::threads::share;
 
 /// Where induced velocity comes from.
 pub trait InducedVelocity: Clone + Send + Sync {
@@ -230,16 +231,19 @@ pub fn station_inflow<F: InducedVelocity>(
     instant: &RotorInstant,
 ) -> (Vec<f64>, u64) {
     let n = options.n_stations;
-    let mut inflow = Vec::with_capacity(options.n_blades * n);
-    let mut evaluations = 0;
-    let mut velocity = vec![[0.0; 3]; n];
-    for blade in 0..options.n_blades {
+    let mut inflow = vec![0.0; options.n_blades * n];
+    let mut evaluations = vec![0; options.n_blades];
+    let blades = inflow.chunks_mut(n).zip(&mut evaluations).enumerate();
+    share(blades, |(blade, (inflow, evaluations))| {
         let segments = instant.segments(options, Some(blade));
-        velocity.fill([0.0; 3]);
+        let mut velocity = vec![[0.0; 3]; n];
         field.add(&instant.station[blade * n..(blade + 1) * n], &segments, &mut velocity);
-        inflow.extend(velocity.iter().map(|v| -v[2] / options.tip_speed()));
-        evaluations += (n * segments.start.len()) as u64;
-    }
+        for (lambda, v) in inflow.iter_mut().zip(&velocity) {
+            *lambda = -v[2] / options.tip_speed();
+        }
+        *evaluations = (n * segments.start.len()) as u64;
+    });
+    let evaluations = evaluations.iter().sum();
     (inflow, evaluations)
 }
 
