@@ -91,8 +91,8 @@ def test_the_monitors_say_what_they_watch(baseline_relaxation):
     # airframe energy: the work of the loads at 36 points a revolution misses a part of what they exchange, no more
     exchanged = np.ptp(data["energy"].values)
     balance = np.abs(data["energy_balance"].values).max()
-    assert balance < 0.03 * exchanged
-    # a monitor that cannot fail watches nothing: loads three per cent too large leave more than that
+    assert balance < 0.01 * exchanged
+    # a monitor that cannot fail watches nothing: loads three per cent too large would not pass
     power = sum(
         data[f"{load}_{axis}"].values * data[rate].values
         for load, rates in (("force", "uvw"), ("moment", "pqr"))
@@ -101,4 +101,4 @@ def test_the_monitors_say_what_they_watch(baseline_relaxation):
     work = np.concatenate([[0.0], np.cumsum(0.5 * (power[1:] + power[:-1]) * np.diff(data["time"].values))])
     energy = data["energy"].values - data["energy"].values[0]
     assert np.allclose(energy - work, data["energy_balance"].values, atol=1e-6 * exchanged)
-    assert np.abs(energy - 1.03 * work).max() > 0.03 * exchanged or np.abs(work).max() < exchanged
+    assert np.abs(energy - 1.03 * work).max() > 0.01 * exchanged
