@@ -15,9 +15,17 @@ HOVER_WAKES = {
     DEFAULT: {},
     "tip vortex of the largest circulation, inboard sheet": {"tip_strength": "max", "inboard_wake": "sheet"},
     "tip vortex of the mean outboard circulation": {"tip_strength": "mean"},
+    "largest circulation, sheet, Weissinger-L blade": {
+        "tip_strength": "max",
+        "inboard_wake": "sheet",
+        "blade_model": "weissinger",
+    },
 }
 
 
 def hover(rotor, wake=DEFAULT, **arguments):
     """Rotor in hover with a relaxation wake of one of `HOVER_WAKES`."""
-    return wf.tunnel(rotor, inflow=configured(rotor, "relaxation", HOVER_WAKES[wake], HOVER), **arguments)
+    options = dict(HOVER_WAKES[wake])
+    blade_model = options.pop("blade_model", "lifting-line")
+    model = configured(rotor, "relaxation", options, HOVER)
+    return wf.tunnel(rotor, inflow=model, blade_model=blade_model, **arguments)
