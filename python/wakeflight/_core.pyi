@@ -185,7 +185,12 @@ class BladeModes:
 @final
 class RelaxationWake:
     def __new__(
-        cls, options_json: str, hub_velocity: _Vector, hub_rates: _Vector, mean_inflow: float
+        cls,
+        options_json: str,
+        hub_velocity: _Vector,
+        hub_rates: _Vector,
+        mean_inflow: float,
+        prescribed: tuple[_Vector, Sequence[_Vector]] | None = None,
     ) -> RelaxationWake: ...
     @property
     def segment_evaluations(self) -> int: ...

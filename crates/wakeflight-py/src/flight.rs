@@ -150,7 +150,8 @@ struct PyMarchingExchange {
 
 #[pymethods]
 impl PyMarchingExchange {
-    /// From a periodic wake with blade 1 at azimuth zero; far inflow, circulation, inflow (n_blades, n_stations).
+    /// From a periodic wake with blade 1 at azimuth zero; far inflow, circulation, inflow (n_blades, n_stations), the inflow
+    /// of thin sections twice as wide.
     #[new]
     fn new(
         relaxation: &RelaxationWake,
@@ -208,7 +209,7 @@ impl PyMarchingExchange {
         Ok((r.max_displacement, r.odd_even, r.miss_distance, r.not_converged))
     }
 
-    /// Total inflow held over the next step (n_blades, n_stations).
+    /// Total inflow held over the next step (n_blades, n_stations), of thin sections at both lines of the chord.
     fn inflow<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         matrix(py, self.inner.inflow.clone(), self.inner.wake.options().n_blades)
     }

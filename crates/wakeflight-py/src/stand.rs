@@ -254,8 +254,7 @@ impl PyStand {
         let all = py
             .detach(|| self.inner.rotor.circulations(self.inner.air, &options, &hub, &instants, &far, &start))
             .map_err(|e| PyArithmeticError::new_err(e.to_string()))?;
-        let n = self.inner.rotor.blade.stations.len();
-        let width = if self.inner.rotor.thin.is_some() { 2 * n } else { n };
+        let (n, width) = (self.inner.rotor.blade.stations.len(), self.inner.rotor.inflow_width());
         let shape = |m, v| Array::from_shape_vec((instants.len(), m), v).map_err(invalid);
         let (gamma, inflow) = (shape(n, all.gamma)?, shape(width, all.inflow)?);
         Ok((gamma.into_pyarray(py), inflow.into_pyarray(py), all.residual, all.not_converged))

@@ -5,7 +5,9 @@ use numpy::{Element, IntoPyArray, PyArray2, PyArray3, PyArray4, PyReadonlyArray1
 use pyo3::exceptions::{PyArithmeticError, PyValueError};
 use pyo3::prelude::*;
 use wakeflight::wake::lifting_surface::{ControlLine, wing_circulation as wing_circulation_of};
-use wakeflight::wake::{self, BladeState, HubMotion, StepReport, WakeError, WakeOptions};
+use wakeflight::wake::{
+    self, BladeState, HubMotion, Induction, LinearField, StepReport, WakeError, WakeOptions,
+};
 
 /// Input at fault: ValueError; numerical failure: ArithmeticError.
 pub(crate) fn py_error(error: WakeError) -> PyErr {
@@ -145,17 +147,26 @@ pub(crate) struct RelaxationWake {
 
 #[pymethods]
 impl RelaxationWake {
+    /// `prescribed`: velocity at the hub [m/s] and gradient [1/s], hub axes, of a linear field that stands for the induced
+    /// velocity of the vortices, for this wake and those marched from it.
     #[new]
+    #[pyo3(signature = (options_json, hub_velocity, hub_rates, mean_inflow, prescribed=None))]
     fn new(
         options_json: &str,
         hub_velocity: [f64; 3],
         hub_rates: [f64; 3],
         mean_inflow: f64,
+        prescribed: Option<([f64; 3], [[f64; 3]; 3])>,
     ) -> PyResult<Self> {
         let options = parse_options(options_json)?;
         let hub = HubMotion { velocity: hub_velocity, rates: hub_rates };
-        let inner = wake::RelaxationWake::new(options, hub, mean_inflow).map_err(py_error)?;
-        Ok(Self { inner })
+        let inner = match prescribed {
+            None => wake::RelaxationWake::new(options, hub, mean_inflow),
+            Some((at_origin, gradient)) => LinearField::new(at_origin, gradient).and_then(|field| {
+                wake::RelaxationWake::with_field(options, hub, mean_inflow, Induction::Linear(field))
+            }),
+        };
+        Ok(Self { inner: inner.map_err(py_error)? })
     }
 
     /// Hub motion, flap and lead (n_azimuths) [rad] and bound circulation (n_azimuths, n_stations) [m2/s].

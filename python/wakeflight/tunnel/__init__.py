@@ -186,10 +186,6 @@ def _prepared(aircraft: Any, inflow: Any, given: dict[str, Any]) -> tuple[Rotor,
         raise InputError.of("blade_model", given["blade_model"], "allowed: lifting-line, weissinger")
     if not isinstance(given["prandtl_glauert"], bool):
         raise InputError.of("prandtl_glauert", given["prandtl_glauert"], "must be True or False")
-    if given["blade_model"] == "weissinger" and model.name == "time-marching":
-        raise InputError.of(
-            "blade_model", "weissinger", "needs inflow relaxation: the marching exchange has no such blade"
-        )
     if not isinstance(model, DynamicInflow):
         model.core_options(rotor)
         if given["blade_model"] == "weissinger" and model.near_wake_angle == 0.0:

@@ -271,7 +271,7 @@ def on_marching(
             break
     if not run.settled:
         run.notes.append(
-            f"the marching wake is not periodic: inflow changes by {relative:.1%} of its mean per revolution; "
+            f"the marching wake is not periodic: inflow changes by {100 * relative:.2g} % of its mean per revolution; "
             f"means over the last {run.averaged} of {len(run.revolutions)} revolutions"
         )
     return run

@@ -57,11 +57,16 @@ impl ThinSection {
         let speed = (wind_c * wind_c + quarter_n * quarter_n + 1e-12).sqrt();
         let mach = speed / air.speed_of_sound;
 
+        // tangency and the factor are those of the air at three quarters of the chord: circulation depends on it alone
         let (s0, c0) = self.zero_lift.sin_cos();
-        let normal = three_quarter_n * c0 + wind_c * s0;
-        let ahead = if wind_c.re() <= 0.0 { 1.0 } else { -1.0 };
-        let factor = if self.prandtl_glauert && mach.re() < FACTOR_LIMIT {
-            S::one() / (S::one() - mach * mach).sqrt()
+        let three_quarter_c = wind_three_quarter.dot(c);
+        let normal = three_quarter_n * c0 + three_quarter_c * s0;
+        let ahead = if three_quarter_c.re() <= 0.0 { 1.0 } else { -1.0 };
+        let speed_there =
+            (three_quarter_c * three_quarter_c + three_quarter_n * three_quarter_n + 1e-12).sqrt();
+        let mach_there = speed_there / air.speed_of_sound;
+        let factor = if self.prandtl_glauert && mach_there.re() < FACTOR_LIMIT {
+            S::one() / (S::one() - mach_there * mach_there).sqrt()
         } else if self.prandtl_glauert {
             S::cst(1.0 / (1.0 - FACTOR_LIMIT * FACTOR_LIMIT).sqrt())
         } else {

@@ -27,6 +27,16 @@ pub struct Circulations {
     pub not_converged: usize,
 }
 
+/// Inflow that a blade's own near wake (and bound line) adds per unit of circulation, row-major (n_stations, n_stations)
+/// [s/m2].
+#[derive(Clone, Debug)]
+pub struct NearWake {
+    /// On the bound line.
+    bound_line: Vec<f64>,
+    /// At three quarters of the chord, where thin sections meet the air.
+    three_quarter: Option<Vec<f64>>,
+}
+
 /// A blade at one instant.
 #[derive(Clone, Copy, Debug)]
 pub struct BladeInstant {
@@ -117,14 +127,38 @@ impl Rotor {
         );
     }
 
-    /// Circulation and total inflow of one blade for the held far inflow and the near-wake matrix (n, n).
+    /// Induction of a blade's own near wake, at the azimuth and the angles of `state`.
+    pub fn near_wake(
+        &self,
+        options: &WakeOptions,
+        hub: &WakeHub,
+        state: &BladeState,
+    ) -> Result<NearWake, WakeError> {
+        let bound_line = near_wake_matrix(options, hub, state)?;
+        let three_quarter = match self.thin {
+            Some(_) => {
+                let chords: Vec<f64> = self.blade.stations.iter().map(|s| s.geometry.chord).collect();
+                Some(weissinger_matrix(options, hub, state, &chords)?)
+            }
+            None => None,
+        };
+        Ok(NearWake { bound_line, three_quarter })
+    }
+
+    /// Inflow values that a blade holds: one per station, two with thin sections.
+    pub fn inflow_width(&self) -> usize {
+        self.blade.stations.len() * if self.thin.is_some() { 2 } else { 1 }
+    }
+
+    /// Circulation of one blade and the inflow it holds ([`inflow_width`](Self::inflow_width)) for the held far inflow
+    /// (n_stations) and its near wake.
     pub fn blade_circulation(
         &self,
         air: Air,
         hub: &HubMotion<f64>,
         blade: &BladeInstant,
         lambda_far: &[f64],
-        near_wake: &[f64],
+        near_wake: &NearWake,
         start: &[f64],
     ) -> Result<CirculationSolution, WakeError> {
         let radius = self.blade.radius;
@@ -133,23 +167,31 @@ impl Rotor {
         let floor: Vec<f64> =
             self.blade.stations.iter().map(|s| steepest * s.geometry.chord * self.tip_speed()).collect();
         let tolerance = 1e-8 * self.omega * radius * radius;
-        if let Some(law) = self.thin {
-            return solve_circulation(
+        if let (Some(law), Some(matrix)) = (self.thin, &near_wake.three_quarter) {
+            let mut solution = solve_circulation(
                 lambda_far,
-                near_wake,
+                matrix,
                 |lambda, circulation, slope| {
                     self.thin_circulation(law, air, hub, blade, lambda, circulation, slope);
                 },
                 start,
                 &floor,
                 tolerance,
-            );
+            )?;
+            // lift is perpendicular to the air at the bound line, where the own bound vortex induces nothing
+            let rows = near_wake.bound_line.chunks_exact(lambda_far.len()).zip(lambda_far);
+            let mut held: Vec<f64> = rows
+                .map(|(row, far)| far + row.iter().zip(&solution.gamma).map(|(n, g)| n * g).sum::<f64>())
+                .collect();
+            held.append(&mut solution.inflow);
+            solution.inflow = held;
+            return Ok(solution);
         }
         // the motion of the sections does not change while the circulation is sought
         let winds = self.section_winds(hub, blade);
         solve_circulation(
             lambda_far,
-            near_wake,
+            &near_wake.bound_line,
             |lambda, circulation, slope| self.circulation_of(air, &winds, lambda, circulation, slope),
             start,
             &floor,
@@ -169,28 +211,15 @@ impl Rotor {
     ) -> Result<Circulations, WakeError> {
         let n = self.blade.stations.len();
         let wake_hub = WakeHub { velocity: hub.velocity.array(), rates: hub.omega.array() };
-        let chords: Vec<f64> = self.blade.stations.iter().map(|s| s.geometry.chord).collect();
         let mut all = Circulations::default();
         for (i, blade) in instants.iter().enumerate() {
             let (flap, lead) = self.equivalent_angles(&blade.modal);
-            let state = BladeState { psi: blade.psi, flap, lead };
-            let near = near_wake_matrix(options, &wake_hub, &state)?;
-            let tangency = match self.thin {
-                Some(_) => Some(weissinger_matrix(options, &wake_hub, &state, &chords)?),
-                None => None,
-            };
-            let far = &lambda_far[i * n..(i + 1) * n];
-            let matrix = tangency.as_ref().unwrap_or(&near);
+            let near = self.near_wake(options, &wake_hub, &BladeState { psi: blade.psi, flap, lead })?;
+            let row = i * n..(i + 1) * n;
             let solution =
-                self.blade_circulation(air, hub, blade, far, matrix, &start[i * n..(i + 1) * n])?;
+                self.blade_circulation(air, hub, blade, &lambda_far[row.clone()], &near, &start[row])?;
             all.residual = all.residual.max(solution.residual);
             all.not_converged += usize::from(!solution.converged);
-            if tangency.is_some() {
-                // lift is perpendicular to the air at the bound line, where the own bound vortex induces nothing
-                all.inflow.extend(
-                    (0..n).map(|r| far[r] + (0..n).map(|j| near[r * n + j] * solution.gamma[j]).sum::<f64>()),
-                );
-            }
             all.gamma.extend(solution.gamma);
             all.inflow.extend(solution.inflow);
         }

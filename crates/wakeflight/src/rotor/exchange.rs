@@ -3,15 +3,13 @@
 //! Circulation from the motion and the far inflow, the wake one step further, the far inflow anew, the circulation again:
 //! one call, with the near wakes of the blades found once.
 
-use super::circulation::BladeInstant;
+use super::circulation::{BladeInstant, NearWake};
 use super::hub::Rotor;
 use crate::blade::aerodynamics::Air;
 use crate::blade::loads::HubMotion;
 use crate::vortex::threads::share;
 use crate::wake::miss_distance::miss_distance_in_cores;
-use crate::wake::{
-    BladeState, CirculationSolution, HubMotion as WakeHub, TimeMarchingWake, WakeError, near_wake_matrix,
-};
+use crate::wake::{BladeState, CirculationSolution, HubMotion as WakeHub, TimeMarchingWake, WakeError};
 
 /// What may be done beyond the plain exchange.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -48,7 +46,7 @@ impl Place<'_> {
         &self,
         blade: &BladeInstant,
         far: &[f64],
-        near: &[f64],
+        near: &NearWake,
         start: &[f64],
     ) -> Result<CirculationSolution, WakeError> {
         self.rotor.blade_circulation(self.air, self.hub, blade, far, near, start)
@@ -67,11 +65,11 @@ pub struct MarchingExchange {
     far_held: Vec<f64>,
     /// Bound circulation (n_blades, n_stations) [m2/s].
     pub circulation: Vec<f64>,
-    /// Total inflow held over the next step (n_blades, n_stations).
+    /// Total inflow held over the next step (n_blades, n_stations), with thin sections at both lines of the chord.
     pub inflow: Vec<f64>,
     blades: Vec<BladeInstant>,
     states: Vec<BladeState>,
-    near_wakes: Vec<Vec<f64>>,
+    near_wakes: Vec<NearWake>,
 }
 
 impl MarchingExchange {
@@ -137,7 +135,7 @@ impl MarchingExchange {
         for blade in blades {
             let (flap, lead) = rotor.equivalent_angles(&blade.modal);
             let state = BladeState { psi: blade.psi, flap, lead };
-            self.near_wakes.push(near_wake_matrix(self.wake.options(), hub, &state)?);
+            self.near_wakes.push(rotor.near_wake(self.wake.options(), hub, &state)?);
             self.states.push(state);
         }
         Ok(())
@@ -164,7 +162,8 @@ impl MarchingExchange {
         let n = self.wake.options().n_stations;
         let mut outcomes: Vec<Result<bool, WakeError>> = vec![Ok(true); self.blades.len()];
         let given = self.blades.iter().zip(&self.near_wakes).zip(self.far_held.chunks(n));
-        let kept = self.circulation.chunks_mut(n).zip(self.inflow.chunks_mut(n)).zip(&mut outcomes);
+        let width = at.rotor.inflow_width();
+        let kept = self.circulation.chunks_mut(n).zip(self.inflow.chunks_mut(width)).zip(&mut outcomes);
         share(given.zip(kept), |(((blade, near), far), ((circulation, inflow), outcome))| {
             *outcome = at.solved(blade, far, near, circulation).map(|solution| {
                 circulation.copy_from_slice(&solution.gamma);
@@ -178,12 +177,11 @@ impl MarchingExchange {
     /// Total inflow half a step ahead; circulation of the wake stays that of the present.
     fn hold_extrapolated(&mut self, at: &Place) -> Result<(), WakeError> {
         self.far_ahead(0.5);
-        let n = self.wake.options().n_stations;
+        let (n, width) = (self.wake.options().n_stations, at.rotor.inflow_width());
         for (b, (blade, near)) in self.blades.iter().zip(&self.near_wakes).enumerate() {
             let span = b * n..(b + 1) * n;
-            let far = &self.far_held[span.clone()];
-            let solution = at.solved(blade, far, near, &self.circulation[span.clone()])?;
-            self.inflow[span].copy_from_slice(&solution.inflow);
+            let solution = at.solved(blade, &self.far_held[span.clone()], near, &self.circulation[span])?;
+            self.inflow[b * width..(b + 1) * width].copy_from_slice(&solution.inflow);
         }
         Ok(())
     }

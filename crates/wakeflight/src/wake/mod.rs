@@ -30,4 +30,4 @@ pub use options::{
 };
 pub use relaxation::{Norms, RelaxationWake, tip_rows};
 pub use time_marching::{StepReport, TimeMarchingWake};
-pub use velocity_field::{InducedVelocity, Prescribed, VortexSegments};
+pub use velocity_field::{InducedVelocity, Induction, LinearField, Prescribed, VortexSegments};

@@ -9,7 +9,8 @@ use super::options::{BladeState, HubMotion, WakeOptions};
 use super::stencils;
 use super::trailers;
 use super::velocity_field::{
-    InducedVelocity, RotorInstant, VortexSegments, marker_velocity, point_velocity, station_inflow, sum,
+    InducedVelocity, Induction, RotorInstant, VortexSegments, marker_velocity, point_velocity,
+    station_inflow, sum,
 };
 use std::f64::consts::TAU;
 
@@ -27,7 +28,7 @@ pub struct Norms {
 /// dr/dpsi + dr/dzeta = V/omega, five-point central differences in both; blade b at azimuth index l uses row
 /// l + b n_azimuths/n_blades. Rows are the azimuths psi_l = l delta_psi, l = 0 ... steps_per_revolution - 1.
 #[derive(Clone, Debug)]
-pub struct RelaxationWake<F: InducedVelocity = VortexSegments> {
+pub struct RelaxationWake<F: InducedVelocity = Induction> {
     pub(crate) options: WakeOptions,
     pub(crate) grid: BladeGrid,
     pub(crate) field: F,
@@ -50,11 +51,11 @@ pub struct RelaxationWake<F: InducedVelocity = VortexSegments> {
     evaluations: u64,
 }
 
-impl RelaxationWake<VortexSegments> {
+impl RelaxationWake {
     /// Rigid guess of the geometry for a hub motion and a mean induced inflow v/(omega R) (momentum theory); blades
     /// without flap and circulation until [`set_state`](Self::set_state).
     pub fn new(options: WakeOptions, hub: HubMotion, mean_inflow: f64) -> Result<Self, WakeError> {
-        let field = VortexSegments::new(&options);
+        let field = Induction::Vortices(VortexSegments::new(&options));
         Self::with_field(options, hub, mean_inflow, field)
     }
 }

@@ -9,7 +9,7 @@ use super::relaxation::{RelaxationWake, tip_rows};
 use super::stencils::{Cell, unknown_corner};
 use super::trailers;
 use super::velocity_field::{
-    InducedVelocity, RotorInstant, VortexSegments, marker_velocity, point_velocity, station_inflow, sum,
+    InducedVelocity, Induction, RotorInstant, marker_velocity, point_velocity, station_inflow, sum,
 };
 use std::f64::consts::TAU;
 
@@ -33,7 +33,7 @@ pub struct StepReport {
 /// dr/dpsi + dr/dzeta = V/omega; one predictor and one corrector per step. Three levels of geometry are kept, and with
 /// every marker its circulation and the place of its release.
 #[derive(Clone, Debug)]
-pub struct TimeMarchingWake<F: InducedVelocity = VortexSegments> {
+pub struct TimeMarchingWake<F: InducedVelocity = Induction> {
     options: WakeOptions,
     grid: BladeGrid,
     field: F,

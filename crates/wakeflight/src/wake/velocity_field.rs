@@ -1,5 +1,6 @@
 //! Velocity of the air relative to the hub axes: every vortex of the rotor at one instant, and the wind.
 
+use super::error::{WakeError, finite};
 use super::filament::Filaments;
 use super::geometry::{BladeGrid, blade_point};
 use super::lattice::{Viewer, bound, push_filament, push_shed};
@@ -75,6 +76,61 @@ impl<F: Fn([f64; 3]) -> [f64; 3] + Clone + Send + Sync> InducedVelocity for Pres
 
     fn self_induced(&self, _: [f64; 3], _: [f64; 3], _: [f64; 3], _: f64, _: f64) -> [f64; 3] {
         [0.0; 3]
+    }
+}
+
+/// Velocity that grows linearly with the place, `at_origin` + `gradient` x [m/s, 1/s; `_h`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LinearField {
+    at_origin: [f64; 3],
+    gradient: [[f64; 3]; 3],
+}
+
+impl LinearField {
+    /// From its value at the hub [m/s] and its gradient, row i the derivatives of component i [1/s].
+    pub fn new(at_origin: [f64; 3], gradient: [[f64; 3]; 3]) -> Result<Self, WakeError> {
+        finite("at_origin", &at_origin)?;
+        finite("gradient", gradient.as_flattened())?;
+        Ok(Self { at_origin, gradient })
+    }
+
+    /// Velocity at `point` [m -> m/s, `_h`].
+    pub fn at(&self, point: [f64; 3]) -> [f64; 3] {
+        std::array::from_fn(|i| {
+            self.at_origin[i] + (0..3).map(|j| self.gradient[i][j] * point[j]).sum::<f64>()
+        })
+    }
+}
+
+/// Where a wake takes the induced velocity from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Induction {
+    /// Its vortices.
+    Vortices(VortexSegments),
+    /// A prescribed linear field, whatever the vortices: for problems of convection whose solution is known.
+    Linear(LinearField),
+}
+
+impl InducedVelocity for Induction {
+    fn add(&self, points: &[[f64; 3]], segments: &Segments, velocity: &mut [[f64; 3]]) {
+        match self {
+            Self::Vortices(vortices) => vortices.add(points, segments, velocity),
+            Self::Linear(field) => Prescribed(|p| field.at(p)).add(points, segments, velocity),
+        }
+    }
+
+    fn self_induced(
+        &self,
+        prev: [f64; 3],
+        here: [f64; 3],
+        next: [f64; 3],
+        circulation: f64,
+        core_radius: f64,
+    ) -> [f64; 3] {
+        match self {
+            Self::Vortices(vortices) => vortices.self_induced(prev, here, next, circulation, core_radius),
+            Self::Linear(_) => [0.0; 3],
+        }
     }
 }
 
