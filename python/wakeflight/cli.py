@@ -366,7 +366,9 @@ def tunnel(
         str, typer.Option("--shaft-angle", help="tilt of the shaft, aft + (disk met from below)")
     ] = "0 deg",
     climb: Annotated[str, typer.Option("--climb", help='up the shaft, descent -, "-5 m/s"')] = "0 m/s",
-    inflow: InflowName = "time-marching",
+    inflow: Annotated[
+        str, typer.Option("--inflow", help="time-marching, relaxation, dynamic, annular (hover, axial climb)")
+    ] = "time-marching",
     collective_at: Annotated[
         str, typer.Option("--collective-at", help='where the collective is meant: root, "0.75 R"')
     ] = "root",
