@@ -7,7 +7,10 @@ use crate::wake::{
     RelaxationWake, TimeMarchingWake as PyTimeMarchingWake, flat, marched_lattice, matrix, parse_options,
     py_error, tip_circulation, tip_core, vectors,
 };
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyArray4, PyReadonlyArray1, PyReadonlyArray2};
+use numpy::{
+    IntoPyArray, PyArray1, PyArray2, PyArray3, PyArray4, PyReadonlyArray1, PyReadonlyArray2,
+    PyReadwriteArray2,
+};
 use pyo3::exceptions::{PyArithmeticError, PyValueError};
 use pyo3::prelude::*;
 use std::f64::consts::TAU;
@@ -16,6 +19,7 @@ use wakeflight::blade::aerodynamics::Air;
 use wakeflight::blade::kinematics::ModalMotion;
 use wakeflight::blade::loads::HubMotion;
 use wakeflight::integrate::fixed::{FixedStep, StepFailure};
+use wakeflight::integrate::linearised::Linearised;
 use wakeflight::rotor::circulation::BladeInstant;
 use wakeflight::rotor::exchange::{ExchangeOptions, MarchingExchange};
 use wakeflight::rotor::hub::Rotor;
@@ -78,6 +82,56 @@ impl PyFixedStep {
     fn counters(&self) -> (u64, u64, u64, u64, u64, u64) {
         let c = self.inner.counters();
         (c.residual_evaluations, c.jacobians, c.factorisations, c.newton_iterations, c.steps, c.halvings)
+    }
+}
+
+/// F linearised once for a solver that asks for its derivatives again and again; see `wakeflight.integrators`.
+#[pyclass(name = "Linearised")]
+struct PyLinearised {
+    inner: Linearised,
+}
+
+#[pymethods]
+impl PyLinearised {
+    #[new]
+    fn new(aircraft: &PyAircraft) -> Self {
+        Self { inner: Linearised::new(aircraft.inner.layout) }
+    }
+
+    /// Linearises at (t, y); y_dot that satisfies F = 0 there, from the guess `y_dot`.
+    fn consistent<'py>(
+        &mut self,
+        py: Python<'py>,
+        aircraft: &PyAircraft,
+        t: f64,
+        y: PyReadonlyArray1<f64>,
+        y_dot: PyReadonlyArray1<f64>,
+        inputs: &PyInputs,
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let mut rate = y_dot.as_slice()?.to_vec();
+        self.inner
+            .consistent(&aircraft.inner, t, y.as_slice()?, &mut rate, &inputs.0)
+            .map_err(|e| PyArithmeticError::new_err(e.to_string()))?;
+        Ok(rate.into_pyarray(py))
+    }
+
+    /// Linearises at (t, y, y_dot).
+    fn renew(
+        &mut self,
+        aircraft: &PyAircraft,
+        t: f64,
+        y: PyReadonlyArray1<f64>,
+        y_dot: PyReadonlyArray1<f64>,
+        inputs: &PyInputs,
+    ) -> PyResult<()> {
+        self.inner.renew(&aircraft.inner, t, y.as_slice()?, y_dot.as_slice()?, &inputs.0);
+        Ok(())
+    }
+
+    /// dF/dy + c dF/dy_dot of the instant last linearised at, into `out` (n, n).
+    fn matrix(&self, c: f64, mut out: PyReadwriteArray2<f64>) -> PyResult<()> {
+        self.inner.slopes.dense(1.0, c, out.as_slice_mut()?);
+        Ok(())
     }
 }
 
@@ -259,5 +313,6 @@ impl PyMarchingExchange {
 /// Registers the classes of this file.
 pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_class::<PyFixedStep>()?;
+    m.add_class::<PyLinearised>()?;
     m.add_class::<PyMarchingExchange>()
 }
