@@ -72,6 +72,8 @@ mod x86 {
     }
 
     impl Real for Quartet {
+        const PLAIN: bool = true;
+
         #[inline(always)]
         fn cst(value: f64) -> Self {
             Self(V3::known().splat_f64s(value))

@@ -29,6 +29,9 @@ pub trait Real:
     + Mul<f64, Output = Self>
     + Div<f64, Output = Self>
 {
+    /// Whether it carries no derivatives: worth a path of its own through equations asked for again and again.
+    const PLAIN: bool = false;
+
     /// A constant: derivatives zero.
     fn cst(value: f64) -> Self;
     /// The value without derivatives.
@@ -122,6 +125,8 @@ pub trait Real:
 }
 
 impl Real for f64 {
+    const PLAIN: bool = true;
+
     #[inline(always)]
     fn cst(value: f64) -> Self {
         value
