@@ -2,7 +2,7 @@
 
 mod wake_cases;
 use wake_cases::*;
-use wakeflight::wake::velocity_field::{RotorInstant, VortexSegments, marker_velocity};
+use wakeflight::wake::velocity_field::{FieldWork, RotorInstant, VortexSegments, Wanted, field_at};
 use wakeflight::wake::{HubMotion, Predictor, RelaxationWake, Scheme, TimeMarchingWake, WakeOptions};
 
 const CT: f64 = 0.00583;
@@ -187,9 +187,10 @@ mod inertial {
         let n_k = options.n_segments();
         let still = HubMotion::default();
         let field = VortexSegments::new(&options);
-        let field_at = |instant: &RotorInstant| {
+        let at_markers = |instant: &RotorInstant| {
             let mut velocity = Vec::new();
-            marker_velocity(&field, &options, instant, &still, &mut velocity);
+            let wanted = Wanted { markers: Some((&still, &mut velocity)), ..Wanted::default() };
+            field_at(&field, &options, instant, &mut FieldWork::default(), wanted);
             velocity
         };
         let dt = options.delta_psi() / OMEGA;
@@ -208,7 +209,7 @@ mod inertial {
                 |x: [f64; 3]| -> [f64; 3] { times(&transposed(&c1), std::array::from_fn(|i| x[i] - h1[i])) };
             // old level in inertial axes
             let old: Vec<[f64; 3]> = instant.free.position.iter().map(|r| to_inertial(&c0, h0, *r)).collect();
-            let v_old: Vec<[f64; 3]> = field_at(&instant).into_iter().map(|v| times(&c0, v)).collect();
+            let v_old: Vec<[f64; 3]> = at_markers(&instant).into_iter().map(|v| times(&c0, v)).collect();
             let mut next = marched.instant().clone();
             let place = |velocity: &dyn Fn(usize, usize) -> [f64; 3], next: &mut RotorInstant| {
                 for b in 0..options.n_blades {
@@ -221,7 +222,7 @@ mod inertial {
                 }
             };
             place(&|i, j| std::array::from_fn(|c| 0.5 * (v_old[i][c] + v_old[j][c])), &mut next);
-            let v_new: Vec<[f64; 3]> = field_at(&next).into_iter().map(|v| times(&c1, v)).collect();
+            let v_new: Vec<[f64; 3]> = at_markers(&next).into_iter().map(|v| times(&c1, v)).collect();
             place(
                 &|i, j| {
                     std::array::from_fn(|c| 0.25 * (v_old[i][c] + v_old[j][c] + v_new[i][c] + v_new[j][c]))

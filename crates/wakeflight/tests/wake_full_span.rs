@@ -5,12 +5,22 @@ use std::collections::HashMap;
 use std::f64::consts::{PI, TAU};
 use wake_cases::*;
 use wakeflight::wake::geometry::BladeGrid;
-use wakeflight::wake::velocity_field::{RotorInstant, VortexSegments, point_velocity, station_inflow};
+use wakeflight::wake::velocity_field::{
+    FieldWork, RotorInstant, VortexSegments, Wanted, field_at, point_velocity,
+};
 use wakeflight::wake::{
     BladeState, Prescribed, RelaxationWake, Scheme, ShedWake, TimeMarchingWake, Trailers, WakeOptions,
 };
 
 const CT: f64 = 0.006;
+
+/// Inflow at the stations without that of their own near wake (n_blades, n_stations).
+fn station_inflow(options: &WakeOptions, instant: &RotorInstant) -> Vec<f64> {
+    let mut inflow = Vec::new();
+    let wanted = Wanted { stations: Some(&mut inflow), ..Wanted::default() };
+    field_at(&VortexSegments::new(options), options, instant, &mut FieldWork::default(), wanted);
+    inflow
+}
 
 /// Two blades, twenty degrees, eight trailers.
 fn full_span() -> WakeOptions {
@@ -201,7 +211,7 @@ fn rectangular_wing(aspect: f64, n: usize) -> [f64; 2] {
     let mut system = nalgebra::DMatrix::identity(n, n);
     for j in 0..n {
         shed_history(&mut instant, &options, |_| (0..n).map(|i| f64::from(i == j)).collect());
-        let (inflow, _) = station_inflow(&VortexSegments::new(&options), &options, &instant);
+        let inflow = station_inflow(&options, &instant);
         for i in 0..n {
             system[(i, j)] += PI * inflow[i] * speed;
         }
@@ -285,7 +295,7 @@ fn verif_shed_vortices_bring_the_lift_deficiency_of_theodorsen() {
                     (0.5 * PI * fade).cos().powi(2) * if part == 0 { phase.cos() } else { phase.sin() };
                 vec![strength; 9]
             });
-            let (inflow, _) = station_inflow(&VortexSegments::new(&options), &options, &instant);
+            let inflow = station_inflow(&options, &instant);
             *w = inflow[3] * options.tip_speed();
         }
         lift_deficiency(downwash)

@@ -11,7 +11,6 @@ pub mod loads;
 pub mod model;
 pub mod modes;
 pub mod quadrature;
-pub mod rigid;
 pub mod section;
 pub mod strain;
 pub mod thin_section;

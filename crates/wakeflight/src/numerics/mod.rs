@@ -2,6 +2,7 @@
 pub mod four;
 pub mod frames;
 pub mod jacobian;
+pub mod linear;
 pub mod scalar;
 pub mod tables;
 pub mod wide;

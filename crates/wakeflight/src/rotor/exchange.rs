@@ -108,11 +108,11 @@ impl MarchingExchange {
         let at = Place { rotor, air, hub };
         let mut failed = self.solve(&at, true)?;
         let step = self.wake.step(wake_hub, &self.states, &self.circulation)?;
-        self.renew_far();
+        self.renew_far(self.options.recorrect == 0);
         failed += self.solve(&at, false)?;
-        for _ in 0..self.options.recorrect {
+        for pass in 0..self.options.recorrect {
             self.wake.set_circulation(&self.circulation)?;
-            self.lambda_far = self.wake.inflow_far();
+            self.find_far(pass + 1 == self.options.recorrect);
             failed += self.solve(&at, false)?;
         }
         if self.options.extrapolate {
@@ -141,9 +141,19 @@ impl MarchingExchange {
         Ok(())
     }
 
-    fn renew_far(&mut self) {
-        let far = std::mem::replace(&mut self.lambda_far, self.wake.inflow_far());
-        self.before = Some(far);
+    fn renew_far(&mut self, last: bool) {
+        let before = self.before.get_or_insert_default();
+        std::mem::swap(before, &mut self.lambda_far);
+        self.find_far(last);
+    }
+
+    /// Far inflow of the wake as it is; with the `last` before the next step goes the velocity of its markers.
+    fn find_far(&mut self, last: bool) {
+        if last {
+            self.wake.inflow_far_before_step(&mut self.lambda_far);
+        } else {
+            self.lambda_far = self.wake.inflow_far();
+        }
     }
 
     /// Far inflow `steps` ahead, linear in azimuth from its last two values.

@@ -5,6 +5,7 @@ pub use super::dispatch::InstructionSet;
 use super::dispatch::run;
 use super::kernel::Sum;
 use super::models::{ForModel, Model, for_core};
+use super::sources::{Group, Part};
 use super::strands::Strands;
 use super::threads::share;
 
@@ -128,30 +129,41 @@ pub(super) fn add(
     instruction_set: InstructionSet,
     velocity: &mut [[f64; 3]],
 ) {
-    for_core(core, core_distance, Direct { points, strands, instruction_set, velocity });
+    let sources = [Part::of(strands)];
+    let mut groups = [Group { points, sources: &sources, velocity }];
+    for_core(core, core_distance, Direct { groups: &mut groups, instruction_set });
+}
+
+/// Adds the sum over the sources of every group at its points.
+pub(super) fn add_groups(groups: &mut [Group<'_>], core: Core, core_distance: CoreDistance) {
+    for_core(core, core_distance, Direct { groups, instruction_set: InstructionSet::widest() });
 }
 
 /// The sum of every segment at every point.
-struct Direct<'a> {
-    points: &'a [[f64; 3]],
-    strands: &'a Strands,
+struct Direct<'a, 'b> {
+    groups: &'a mut [Group<'b>],
     instruction_set: InstructionSet,
-    velocity: &'a mut [[f64; 3]],
 }
 
-impl ForModel for Direct<'_> {
-    /// Shares the points among threads; every point sees all sources in order, whichever thread it is on.
+impl ForModel for Direct<'_, '_> {
+    /// Shares the points among threads; every point sees all its sources in order, whichever thread it is on.
     fn run<M: Model, const TO_SEGMENT: bool>(self) {
-        let Self { points, strands, instruction_set, velocity } = self;
-        debug_assert_eq!(points.len(), velocity.len());
-        let worth_sharing = points.len() > CHUNK && points.len() * strands.pieces.len() > LEAST_SHARED_WORK;
-        let sum = |(points, velocity): (&[[f64; 3]], &mut [[f64; 3]])| {
-            run(Sum::<M, TO_SEGMENT>::new(points, strands, velocity), instruction_set);
+        let Self { groups, instruction_set } = self;
+        let (n_points, evaluations) =
+            groups.iter().fold((0, 0), |(n, all), g| (n + g.points.len(), all + g.evaluations()));
+        let sum = |(points, parts, velocity): (&[[f64; 3]], &[Part<'_>], &mut [[f64; 3]])| {
+            run(Sum::<M, TO_SEGMENT>::new(points, parts, velocity), instruction_set);
         };
-        if worth_sharing {
-            share(points.chunks(CHUNK).zip(velocity.chunks_mut(CHUNK)), sum);
+        let pieces = groups.iter_mut().flat_map(|group| {
+            let Group { points, sources, velocity } = group;
+            debug_assert_eq!(points.len(), velocity.len());
+            let sources: &[Part<'_>] = sources;
+            points.chunks(CHUNK).zip(velocity.chunks_mut(CHUNK)).map(move |(p, v)| (p, sources, v))
+        });
+        if n_points > CHUNK && evaluations > LEAST_SHARED_WORK as u64 {
+            share(pieces, sum);
         } else {
-            sum((points, velocity));
+            pieces.for_each(sum);
         }
     }
 }

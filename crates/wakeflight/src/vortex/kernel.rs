@@ -7,7 +7,8 @@ use super::dispatch::OverLanes;
 use super::lanes::{LEAST_SQUARE, Lanes};
 use super::models::{Model, Seen};
 use super::roots::Roots;
-use super::strands::{Piece, Strand, Strands};
+use super::sources::Part;
+use super::strands::{Piece, Strand};
 use pulp::Simd;
 use pulp::bytemuck::{cast_slice, cast_slice_mut};
 use std::marker::PhantomData;
@@ -15,7 +16,7 @@ use std::marker::PhantomData;
 /// A sum over segments at some points, for one core model and distance.
 pub(super) struct Sum<'a, M, const TO_SEGMENT: bool> {
     points: &'a [[f64; 3]],
-    strands: &'a Strands,
+    parts: &'a [Part<'a>],
     velocity: &'a mut [[f64; 3]],
     model: PhantomData<M>,
 }
@@ -32,8 +33,8 @@ struct FromNode<S: Simd> {
 
 impl<'a, M: Model, const TO_SEGMENT: bool> Sum<'a, M, TO_SEGMENT> {
     /// Adds to `velocity` at `points`, one entry each.
-    pub fn new(points: &'a [[f64; 3]], strands: &'a Strands, velocity: &'a mut [[f64; 3]]) -> Self {
-        Self { points, strands, velocity, model: PhantomData }
+    pub fn new(points: &'a [[f64; 3]], parts: &'a [Part<'a>], velocity: &'a mut [[f64; 3]]) -> Self {
+        Self { points, parts, velocity, model: PhantomData }
     }
 }
 
@@ -44,8 +45,10 @@ impl<M: Model, const TO_SEGMENT: bool> OverLanes for Sum<'_, M, TO_SEGMENT> {
         let (on, count) = (Lanes::new(simd, roots), Lanes::<S, R>::COUNT);
         for (points, velocity) in self.points.chunks(count).zip(self.velocity.chunks_mut(count)) {
             let mut sum = [on.splat(0.0); 3];
-            let (strands, pieces) = (&self.strands.strands, &self.strands.pieces);
-            over_sources::<S, R, M, TO_SEGMENT>(on, &gathered(on, points), strands, pieces, &mut sum);
+            let points = gathered(on, points);
+            for part in self.parts {
+                over_sources::<S, R, M, TO_SEGMENT>(on, &points, part.strands, part.pieces, &mut sum);
+            }
             scattered::<S>(&sum, velocity);
         }
     }

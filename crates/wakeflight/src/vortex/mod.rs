@@ -2,6 +2,7 @@
 pub mod core;
 pub mod curvature;
 pub mod induced_velocity;
+pub mod sources;
 pub mod threads;
 pub mod tree;
 

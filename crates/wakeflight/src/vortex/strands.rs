@@ -39,12 +39,26 @@ pub(super) struct Strands {
     pub strands: Vec<Strand>,
     /// Pieces of all strands, one strand after the other.
     pub pieces: Vec<Piece>,
+    /// Whether the next piece starts a strand, wherever it begins.
+    cut: bool,
 }
 
 impl Strands {
     /// With room for `n_segments`.
     pub fn with_capacity(n_segments: usize) -> Self {
-        Self { strands: Vec::new(), pieces: Vec::with_capacity(n_segments) }
+        Self { strands: Vec::new(), pieces: Vec::with_capacity(n_segments), cut: false }
+    }
+
+    /// Without sources; room is kept.
+    pub fn clear(&mut self) {
+        self.strands.clear();
+        self.pieces.clear();
+        self.cut = false;
+    }
+
+    /// Ends the last strand.
+    pub fn cut(&mut self) {
+        self.cut = true;
     }
 
     /// Appends a segment; it continues the last strand where it starts at that strand's end.
@@ -57,9 +71,10 @@ impl Strands {
         coreless: bool,
     ) {
         match (self.strands.last_mut(), self.pieces.last()) {
-            (Some(strand), Some(last)) if last.end == start => strand.n_pieces += 1,
+            (Some(strand), Some(last)) if last.end == start && !self.cut => strand.n_pieces += 1,
             _ => self.strands.push(Strand { start, n_pieces: 1 }),
         }
+        self.cut = false;
         let along = [end[0] - start[0], end[1] - start[1], end[2] - start[2]];
         let length_sq = along[0] * along[0] + along[1] * along[1] + along[2] * along[2];
         let least_sq = LEAST_CORE * LEAST_CORE * length_sq;

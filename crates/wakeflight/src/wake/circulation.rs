@@ -1,10 +1,12 @@
 //! Circulation of a blade solved together with its near wake.
 
 use super::error::{WakeError, finite, length};
-use nalgebra::{DMatrix, DVector};
+use crate::numerics::linear::solve_in_place;
 
 /// Most Newton iterations.
 const MAX_ITERATIONS: usize = 40;
+/// Most Newton iterations with the slopes as they are.
+const MAX_EXACT_ITERATIONS: usize = 10;
 /// Most halvings of one step.
 const MAX_HALVINGS: usize = 10;
 /// Most consecutive steps without descent (kinks of section tables).
@@ -28,11 +30,43 @@ pub struct CirculationSolution {
 /// One evaluation: inflow, section circulation and slopes at `gamma`.
 #[derive(Clone)]
 struct Iterate {
-    gamma: DVector<f64>,
-    inflow: DVector<f64>,
-    defect: DVector<f64>,
+    gamma: Vec<f64>,
+    inflow: Vec<f64>,
+    defect: Vec<f64>,
     slope: Vec<f64>,
     residual: f64,
+}
+
+impl Iterate {
+    fn new(n: usize) -> Self {
+        let zero = || vec![0.0; n];
+        Self { gamma: zero(), inflow: zero(), defect: zero(), slope: zero(), residual: f64::INFINITY }
+    }
+
+    fn copy(&mut self, from: &Self) {
+        self.gamma.copy_from_slice(&from.gamma);
+        self.inflow.copy_from_slice(&from.inflow);
+        self.defect.copy_from_slice(&from.defect);
+        self.slope.copy_from_slice(&from.slope);
+        self.residual = from.residual;
+    }
+}
+
+/// Slopes of the linearisation.
+#[derive(Clone, Copy)]
+enum Slopes {
+    /// As the sections have them: quadratic convergence near the solution.
+    Exact,
+    /// Clipped to [floor, 0]: slow, but the sign of a stalled section does not turn Newton away.
+    Clipped,
+}
+
+/// The circulation problem of one blade.
+struct Problem<'a, F> {
+    far: &'a [f64],
+    near: &'a [f64],
+    floor: &'a [f64],
+    section: F,
 }
 
 /// Solves Gamma_i = Gamma_section,i(lambda_far,i + sum_j N_ij Gamma_j) for one blade.
@@ -43,11 +77,12 @@ struct Iterate {
 /// * `gamma_start` (n) [m2/s]: start;
 /// * `slope_floor` (n) [m2/s]: least slope of the linearisation, -3 chord omega R. (Gamma = V c C_l / 2 and
 ///   d alpha/d lambda = -omega R/V give -C_l_alpha/2 chord omega R, about -pi chord omega R for a thin section.)
-///   Slopes are clipped to [floor, 0];
+///   Slopes are clipped to [floor, 0] where Newton with the slopes as they are does not descend;
 /// * `tolerance` [m2/s], for example 1e-8 omega R^2.
 ///
-/// Newton steps (I - S N) dGamma = Gamma_section - Gamma, halved while the residual grows; where they fail from the
-/// start given, once more from the circulation that sections of the far inflow's slope would have: a wide blade's start
+/// Newton steps (I - S N) dGamma = Gamma_section - Gamma, halved while the residual grows: first with the slopes as they
+/// are, which takes two or three steps (clipped ones fifteen, wherever reverse flow or Mach number put a slope outside the
+/// range), then with clipped slopes from the start given; where these fail too, once more from the circulation that sections of the far inflow's slope would have: a wide blade's start
 /// without near wake stalls its tip, and Newton does not come back from there. Values of `section` that are
 /// not finite are treated as an infinite residual and never accepted.
 pub fn solve_circulation(
@@ -66,28 +101,21 @@ pub fn solve_circulation(
     finite("n_matrix", n_matrix)?;
     finite("gamma_start", gamma_start)?;
     finite("slope_floor", slope_floor)?;
-    let near = DMatrix::from_row_slice(n, n, n_matrix);
-    let far = DVector::from_column_slice(lambda_far);
-
-    let mut evaluate = |gamma: DVector<f64>| {
-        let inflow = &far + &near * &gamma;
-        let mut from_section = vec![0.0; n];
-        let mut slope = vec![0.0; n];
-        section(inflow.as_slice(), &mut from_section, &mut slope);
-        let defect = DVector::from_vec(from_section) - &gamma;
-        let usable = defect.iter().chain(&slope).all(|v| v.is_finite());
-        let residual = if usable { defect.amax() } else { f64::INFINITY };
-        for (s, floor) in slope.iter_mut().zip(slope_floor) {
-            *s = s.max(*floor).min(0.0);
-        }
-        Iterate { gamma, inflow, defect, slope, residual }
-    };
-
-    let mut best = descend(&mut evaluate, &near, DVector::from_column_slice(gamma_start), tolerance);
+    let mut problem = Problem { far: lambda_far, near: n_matrix, floor: slope_floor, section: &mut section };
+    let mut start = Iterate::new(n);
+    start.gamma.copy_from_slice(gamma_start);
+    let mut best = problem.descend(start.clone(), Slopes::Exact, tolerance);
     if best.0.residual > tolerance {
-        let flat = evaluate(DVector::zeros(n));
-        if let Some(linear) = newton_step(&flat, &near) {
-            let again = descend(&mut evaluate, &near, linear, tolerance);
+        let careful = problem.descend(start, Slopes::Clipped, tolerance);
+        best = (careful.0, best.1 + careful.1);
+    }
+    if best.0.residual > tolerance {
+        let mut flat = Iterate::new(n);
+        problem.evaluate(&mut flat);
+        let mut linear = Iterate::new(n);
+        let mut jacobian = vec![0.0; n * n];
+        if problem.newton_step(&flat, Slopes::Clipped, &mut jacobian, &mut linear.gamma) {
+            let again = problem.descend(linear, Slopes::Clipped, tolerance);
             if again.0.residual < best.0.residual {
                 best = (again.0, best.1 + again.1);
             }
@@ -95,68 +123,103 @@ pub fn solve_circulation(
     }
     let (found, iterations) = best;
     Ok(CirculationSolution {
-        gamma: found.gamma.as_slice().to_vec(),
-        inflow: found.inflow.as_slice().to_vec(),
+        gamma: found.gamma,
+        inflow: found.inflow,
         converged: found.residual <= tolerance,
         residual: found.residual,
         iterations,
     })
 }
 
-/// (I - S N)^-1 (Gamma_section - Gamma), if it exists.
-fn newton_step(here: &Iterate, near: &DMatrix<f64>) -> Option<DVector<f64>> {
-    let n = here.gamma.len();
-    let mut jacobian = DMatrix::identity(n, n);
-    for i in 0..n {
-        for j in 0..n {
-            jacobian[(i, j)] -= here.slope[i] * near[(i, j)];
+impl<F: FnMut(&[f64], &mut [f64], &mut [f64])> Problem<'_, F> {
+    /// Everything but the circulation of `at`, from its circulation.
+    fn evaluate(&mut self, at: &mut Iterate) {
+        let n = self.far.len();
+        for i in 0..n {
+            let row = &self.near[i * n..(i + 1) * n];
+            at.inflow[i] = self.far[i] + row.iter().zip(&at.gamma).map(|(a, g)| a * g).sum::<f64>();
         }
+        (self.section)(&at.inflow, &mut at.defect, &mut at.slope);
+        let mut largest: f64 = 0.0;
+        let mut usable = true;
+        for i in 0..n {
+            at.defect[i] -= at.gamma[i];
+            usable &= at.defect[i].is_finite() && at.slope[i].is_finite();
+            largest = largest.max(at.defect[i].abs());
+        }
+        at.residual = if usable { largest } else { f64::INFINITY };
     }
-    let step = jacobian.lu().solve(&here.defect)?;
-    step.iter().all(|v| v.is_finite()).then_some(step)
-}
 
-/// Damped Newton from `start`: the best iterate and the number of iterations.
-fn descend(
-    evaluate: &mut impl FnMut(DVector<f64>) -> Iterate,
-    near: &DMatrix<f64>,
-    start: DVector<f64>,
-    tolerance: f64,
-) -> (Iterate, usize) {
-    let mut here = evaluate(start);
-    let mut best = here.clone();
-    let mut iterations = 0;
-    let mut failures = 0;
-    while best.residual > tolerance
-        && here.residual.is_finite()
-        && iterations < MAX_ITERATIONS
-        && failures < MAX_FAILURES
-    {
-        iterations += 1;
-        let Some(step) = newton_step(&here, near) else { break };
-        let mut fraction = 1.0;
-        let mut candidate = evaluate(&here.gamma + &step);
-        for _ in 0..MAX_HALVINGS {
-            if candidate.residual < here.residual {
+    /// (I - S N)^-1 (Gamma_section - Gamma) into `step`; false where it does not exist.
+    fn newton_step(&self, here: &Iterate, slopes: Slopes, jacobian: &mut [f64], step: &mut [f64]) -> bool {
+        let n = self.far.len();
+        for i in 0..n {
+            let slope = match slopes {
+                Slopes::Exact => here.slope[i],
+                Slopes::Clipped => here.slope[i].max(self.floor[i]).min(0.0),
+            };
+            let row = &mut jacobian[i * n..(i + 1) * n];
+            for (a, near) in row.iter_mut().zip(&self.near[i * n..(i + 1) * n]) {
+                *a = -slope * near;
+            }
+            row[i] += 1.0;
+        }
+        step.copy_from_slice(&here.defect);
+        solve_in_place(jacobian, step) && step.iter().all(|v| v.is_finite())
+    }
+
+    /// Damped Newton from `here.gamma`: the best iterate and the number of iterations.
+    fn descend(&mut self, mut here: Iterate, slopes: Slopes, tolerance: f64) -> (Iterate, usize) {
+        let n = self.far.len();
+        self.evaluate(&mut here);
+        let mut best = here.clone();
+        let (mut candidate, mut shorter) = (Iterate::new(n), Iterate::new(n));
+        let (mut jacobian, mut step) = (vec![0.0; n * n], vec![0.0; n]);
+        let (mut iterations, mut failures) = (0, 0);
+        let (most_iterations, most_failures) = match slopes {
+            Slopes::Exact => (MAX_EXACT_ITERATIONS, 1),
+            Slopes::Clipped => (MAX_ITERATIONS, MAX_FAILURES),
+        };
+        while best.residual > tolerance
+            && here.residual.is_finite()
+            && iterations < most_iterations
+            && failures < most_failures
+        {
+            iterations += 1;
+            if !self.newton_step(&here, slopes, &mut jacobian, &mut step) {
                 break;
             }
-            fraction *= 0.5;
-            let shorter = evaluate(&here.gamma + &step * fraction);
-            if shorter.residual < candidate.residual {
-                candidate = shorter;
+            let along = |to: &mut Iterate, fraction: f64| {
+                for (i, gamma) in to.gamma.iter_mut().enumerate() {
+                    *gamma = here.gamma[i] + step[i] * fraction;
+                }
+            };
+            along(&mut candidate, 1.0);
+            self.evaluate(&mut candidate);
+            let mut fraction = 1.0;
+            for _ in 0..MAX_HALVINGS {
+                if candidate.residual < here.residual {
+                    break;
+                }
+                fraction *= 0.5;
+                along(&mut shorter, fraction);
+                self.evaluate(&mut shorter);
+                if shorter.residual < candidate.residual {
+                    std::mem::swap(&mut candidate, &mut shorter);
+                }
+            }
+            if candidate.residual < here.residual {
+                failures = 0;
+            } else {
+                failures += 1;
+            }
+            std::mem::swap(&mut here, &mut candidate);
+            if here.residual < best.residual {
+                best.copy(&here);
             }
         }
-        if candidate.residual < here.residual {
-            failures = 0;
-        } else {
-            failures += 1;
-        }
-        here = candidate;
-        if here.residual < best.residual {
-            best = here.clone();
-        }
+        (best, iterations)
     }
-    (best, iterations)
 }
 
 #[cfg(test)]

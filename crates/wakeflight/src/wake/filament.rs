@@ -31,6 +31,14 @@ impl Filaments {
         }
     }
 
+    /// Becomes a copy of `other`; room is kept.
+    pub fn copy(&mut self, other: &Self) {
+        (self.n_filaments, self.n_segments) = (other.n_filaments, other.n_segments);
+        self.position.clone_from(&other.position);
+        self.circulation.clone_from(&other.circulation);
+        self.core_squared.clone_from(&other.core_squared);
+    }
+
     /// Index of marker `k` of filament `i`.
     pub fn marker(&self, i: usize, k: usize) -> usize {
         i * (self.n_segments + 1) + k

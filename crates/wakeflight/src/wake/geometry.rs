@@ -37,21 +37,45 @@ fn trailer_edges(options: &WakeOptions) -> Vec<usize> {
     (0..=panels).map(|i| (i * n + panels / 2) / panels).collect()
 }
 
-/// Point of the rigid blade line at the radius `r` [m, `_h`].
+/// Rigid line of a blade.
 ///
 /// e e_r + (r - e) [cos flap (cos lead e_r + sin lead e_psi) + sin flap e_z]; inboard of the hinge r e_r.
 /// e: hinge offset; e_r, e_psi: radial and tangential unit vectors at the blade's azimuth.
-pub fn blade_point(options: &WakeOptions, blade: &BladeState, r: f64) -> [f64; 3] {
-    let (sin_psi, cos_psi) = blade.psi.sin_cos();
-    let e = options.hinge_offset;
-    if r <= e {
-        return [r * cos_psi, r * sin_psi, 0.0];
+#[derive(Clone, Copy, Debug)]
+pub struct BladeLine {
+    hinge_offset: f64,
+    psi: (f64, f64),
+    flap: (f64, f64),
+    lead: (f64, f64),
+}
+
+impl BladeLine {
+    /// Of a blade.
+    pub fn new(options: &WakeOptions, blade: &BladeState) -> Self {
+        BladeLine {
+            hinge_offset: options.hinge_offset,
+            psi: blade.psi.sin_cos(),
+            flap: blade.flap.sin_cos(),
+            lead: blade.lead.sin_cos(),
+        }
     }
-    let (sin_flap, cos_flap) = blade.flap.sin_cos();
-    let (sin_lead, cos_lead) = blade.lead.sin_cos();
-    let radial = e + (r - e) * cos_flap * cos_lead;
-    let tangential = (r - e) * cos_flap * sin_lead;
-    [radial * cos_psi - tangential * sin_psi, radial * sin_psi + tangential * cos_psi, (r - e) * sin_flap]
+
+    /// The same blade at the azimuth `psi` [rad].
+    pub fn turned_to(self, psi: f64) -> Self {
+        BladeLine { psi: psi.sin_cos(), ..self }
+    }
+
+    /// Point at the radius `r` [m, `_h`].
+    pub fn at(&self, r: f64) -> [f64; 3] {
+        let ((sin_psi, cos_psi), e) = (self.psi, self.hinge_offset);
+        if r <= e {
+            return [r * cos_psi, r * sin_psi, 0.0];
+        }
+        let ((sin_flap, cos_flap), (sin_lead, cos_lead)) = (self.flap, self.lead);
+        let radial = e + (r - e) * cos_flap * cos_lead;
+        let tangential = (r - e) * cos_flap * sin_lead;
+        [radial * cos_psi - tangential * sin_psi, radial * sin_psi + tangential * cos_psi, (r - e) * sin_flap]
+    }
 }
 
 /// Release points of the free trailers of a blade, root to tip (trailers_per_blade) [m, `_h`].
@@ -60,7 +84,8 @@ pub fn release_points(options: &WakeOptions, grid: &BladeGrid, blade: &BladeStat
         Trailers::Tip => options.release_radius * options.radius,
         Trailers::FullSpan => grid.edges[edge],
     };
-    grid.trailer_edges.iter().map(|edge| blade_point(options, blade, radius(*edge))).collect()
+    let line = BladeLine::new(options, blade);
+    grid.trailer_edges.iter().map(|edge| line.at(radius(*edge))).collect()
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Inboard wake: rigid helical filaments that close the circulation inboard of its crest.
 
-use super::geometry::{BladeGrid, blade_point};
+use super::geometry::{BladeGrid, BladeLine};
 use super::options::{BladeState, HubMotion, WakeOptions};
 
 /// Outer end of the spans that the sheet gathers (fraction of R).
@@ -15,7 +15,8 @@ fn span_edges(options: &WakeOptions) -> Vec<f64> {
 
 /// Release points of the filaments of a blade, the middles of the spans (n_sheet) [m, `_h`].
 pub fn release_points(options: &WakeOptions, blade: &BladeState) -> Vec<[f64; 3]> {
-    span_edges(options).windows(2).map(|s| blade_point(options, blade, 0.5 * (s[0] + s[1]))).collect()
+    let line = BladeLine::new(options, blade);
+    span_edges(options).windows(2).map(|s| line.at(0.5 * (s[0] + s[1]))).collect()
 }
 
 /// Circulation between the stations: linear, 0 at the root cutout.

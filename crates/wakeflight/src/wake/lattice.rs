@@ -8,8 +8,8 @@
 
 use super::filament::Filaments;
 use super::options::{ShedWake, Trailers, WakeOptions};
-use super::velocity_field::{push, sum};
-use crate::vortex::induced_velocity::Segments;
+use super::sources::Sink;
+use super::velocity_field::sum;
 
 /// Who looks at the free vortices of one blade.
 #[derive(Clone, Copy, Debug)]
@@ -22,7 +22,7 @@ pub(crate) struct Viewer {
 
 /// Appends filament `i` from the viewer's first marker on, and the displaced repeats of its last turn (the far wake).
 pub(crate) fn push_filament(
-    segments: &mut Segments,
+    segments: &mut impl Sink,
     options: &WakeOptions,
     filaments: &Filaments,
     i: usize,
@@ -34,7 +34,7 @@ pub(crate) fn push_filament(
         let (a, b) = (filaments.position[m + k], filaments.position[m + k + 1]);
         let strength = 0.5 * (filaments.circulation[m + k] + filaments.circulation[m + k + 1]);
         let core = filaments.core_squared[i * n + k].sqrt().max(viewer.floor);
-        push(segments, sum(a, shift), sum(b, shift), strength, core);
+        segments.push(sum(a, shift), sum(b, shift), strength, core);
     };
     for k in viewer.first..n {
         segment(k, [0.0; 3]);
@@ -89,7 +89,7 @@ fn rings(options: &WakeOptions, free: &Filaments, blade: usize, k: usize) -> Vec
 /// `own`: seen from that blade's own stations, whose near wake has the present circulation all along. With `beyond` the
 /// rings it stands for are one, and what was shed over it is gathered at its end.
 pub(crate) fn push_shed(
-    segments: &mut Segments,
+    segments: &mut impl Sink,
     options: &WakeOptions,
     free: &Filaments,
     blade: usize,
@@ -111,7 +111,7 @@ pub(crate) fn push_shed(
             };
             let core = (0.5 * (age(i) + age(i + 1))).sqrt().max(viewer.floor);
             let shift = |i: usize| shifts.get(i).copied().unwrap_or([0.0; 3]);
-            push(segments, sum(ends.0, shift(p)), sum(ends.1, shift(p + 1)), older[p] - newer[p], core);
+            segments.push(sum(ends.0, shift(p)), sum(ends.1, shift(p + 1)), older[p] - newer[p], core);
         }
     };
     let near = if own && options.shed_wake == ShedWake::Beyond { viewer.first } else { 0 };

@@ -9,9 +9,8 @@ use super::error::WakeError;
 use super::geometry::BladeGrid;
 use super::near_wake::trailers;
 use super::options::{BladeState, CoreDistance, HubMotion, WakeOptions};
-use super::velocity_field::{push, segment_velocity};
 use crate::vortex::core::Core;
-use crate::vortex::induced_velocity::Segments;
+use crate::vortex::sources::{Group, Sources, add_groups_velocity};
 use std::f64::consts::PI;
 
 /// Velocity along -`up` at the control points per unit circulation of each element, row-major (n, n) [1/m].
@@ -27,33 +26,39 @@ pub fn influence(
     with_bound: bool,
 ) -> Vec<f64> {
     let n = control.len();
-    let mut matrix = vec![0.0; n * n];
-    let mut velocity = vec![[0.0; 3]; n];
-    let mut down = |segments: &Segments| -> Vec<f64> {
-        velocity.fill([0.0; 3]);
-        segment_velocity(control, segments, Core::Singular, CoreDistance::Line, &mut velocity);
-        velocity.iter().map(|v| -(v[0] * up[0] + v[1] * up[1] + v[2] * up[2])).collect()
-    };
-    for (edge, nodes) in trailers.iter().enumerate() {
-        let mut segments = Segments::default();
+    let mut sources = Sources::default();
+    let mut marks = vec![sources.mark()];
+    for nodes in trailers {
         for ends in nodes.windows(2) {
-            push(&mut segments, ends[0], ends[1], 1.0, 0.0);
+            sources.push(ends[0], ends[1], 1.0, 0.0);
         }
-        for (i, w) in down(&segments).into_iter().enumerate() {
-            if edge > 0 {
-                matrix[i * n + edge - 1] += w;
-            }
-            if edge < n {
-                matrix[i * n + edge] -= w;
-            }
-        }
+        marks.push(sources.mark());
     }
     if with_bound {
         for j in 0..n {
-            let mut segments = Segments::default();
-            push(&mut segments, trailers[j][0], trailers[j + 1][0], 1.0, 0.0);
-            for (i, w) in down(&segments).into_iter().enumerate() {
-                matrix[i * n + j] += w;
+            sources.push(trailers[j][0], trailers[j + 1][0], 1.0, 0.0);
+            marks.push(sources.mark());
+        }
+    }
+    let mut matrix = vec![0.0; n * n];
+    let mut velocity = vec![[0.0; 3]; n];
+    for (line, ends) in marks.windows(2).enumerate() {
+        velocity.fill([0.0; 3]);
+        let part = [sources.part(ends[0], ends[1])];
+        let mut groups = [Group { points: control, sources: &part, velocity: &mut velocity }];
+        add_groups_velocity(&mut groups, Core::Singular, CoreDistance::Line.into());
+        for (row, v) in matrix.chunks_exact_mut(n).zip(&velocity) {
+            let w = -(v[0] * up[0] + v[1] * up[1] + v[2] * up[2]);
+            match line.checked_sub(trailers.len()) {
+                Some(bound) => row[bound] += w,
+                None => {
+                    if line > 0 {
+                        row[line - 1] += w;
+                    }
+                    if line < n {
+                        row[line] -= w;
+                    }
+                }
             }
         }
     }

@@ -14,6 +14,7 @@ pub mod miss_distance;
 pub mod near_wake;
 pub mod options;
 pub mod relaxation;
+mod sources;
 pub mod stencils;
 pub mod time_marching;
 pub mod tip_strength;

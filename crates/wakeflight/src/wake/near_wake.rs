@@ -1,7 +1,7 @@
 //! Near wake of a blade: trailers fixed to it, linear in its circulation.
 
 use super::error::WakeError;
-use super::geometry::{BladeGrid, blade_point};
+use super::geometry::{BladeGrid, BladeLine};
 use super::lifting_surface::influence;
 use super::options::{BladeState, HubMotion, WakeOptions};
 use super::velocity_field::sum;
@@ -21,17 +21,27 @@ pub fn near_wake_matrix(
     options.validate()?;
     hub.validate()?;
     blade.validate()?;
+    Ok(matrix_of(options, &BladeGrid::new(options), hub, blade))
+}
+
+/// The matrix of options, hub and blade that were checked.
+pub(super) fn matrix_of(
+    options: &WakeOptions,
+    grid: &BladeGrid,
+    hub: &HubMotion,
+    blade: &BladeState,
+) -> Vec<f64> {
     if options.near_wake_markers() == 0 {
-        return Ok(vec![0.0; options.n_stations * options.n_stations]);
+        return vec![0.0; options.n_stations * options.n_stations];
     }
-    let grid = BladeGrid::new(options);
-    let stations: Vec<[f64; 3]> = grid.stations.iter().map(|r| blade_point(options, blade, *r)).collect();
-    let lines = trailers(options, &grid, hub, blade);
+    let line = BladeLine::new(options, blade);
+    let stations: Vec<[f64; 3]> = grid.stations.iter().map(|r| line.at(*r)).collect();
+    let lines = trailers(options, grid, hub, blade);
     let mut matrix = influence(&lines, &stations, [0.0, 0.0, 1.0], false);
     for value in &mut matrix {
         *value /= options.tip_speed();
     }
-    Ok(matrix)
+    matrix
 }
 
 /// Nodes of the near wake's trailers, one per edge of the bound elements, from the blade on [m, `_h`].
@@ -42,12 +52,14 @@ pub(super) fn trailers(
     blade: &BladeState,
 ) -> Vec<Vec<[f64; 3]>> {
     let wind = hub.wind([0.0; 3]);
-    let node = |r: f64, k: usize| {
-        let zeta = options.near_wake_angle * k as f64 / options.near_wake_segments as f64;
-        let past = BladeState { psi: blade.psi - zeta, ..*blade };
-        sum(blade_point(options, &past, r), wind.map(|v| v * zeta / options.omega))
-    };
-    grid.edges.iter().map(|r| (0..=options.near_wake_segments).map(|k| node(*r, k)).collect()).collect()
+    let line = BladeLine::new(options, blade);
+    let past: Vec<(BladeLine, [f64; 3])> = (0..=options.near_wake_segments)
+        .map(|k| {
+            let zeta = options.near_wake_angle * k as f64 / options.near_wake_segments as f64;
+            (line.turned_to(blade.psi - zeta), wind.map(|v| v * zeta / options.omega))
+        })
+        .collect();
+    grid.edges.iter().map(|r| past.iter().map(|(line, blown)| sum(line.at(*r), *blown)).collect()).collect()
 }
 
 #[cfg(test)]

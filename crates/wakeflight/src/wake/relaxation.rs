@@ -9,8 +9,8 @@ use super::options::{BladeState, HubMotion, WakeOptions};
 use super::stencils;
 use super::trailers;
 use super::velocity_field::{
-    InducedVelocity, Induction, RotorInstant, VortexSegments, marker_velocity, point_velocity,
-    station_inflow, sum,
+    FieldWork, InducedVelocity, Induction, RotorInstant, VortexSegments, Wanted, field_at, point_velocity,
+    sum,
 };
 use std::f64::consts::TAU;
 
@@ -49,6 +49,7 @@ pub struct RelaxationWake<F: InducedVelocity = Induction> {
     core_squared: Vec<f64>,
     sweeps: u64,
     evaluations: u64,
+    work: FieldWork,
 }
 
 impl RelaxationWake {
@@ -90,6 +91,7 @@ impl<F: InducedVelocity> RelaxationWake<F> {
             core_squared: aged.repeat(n_psi * n_t),
             sweeps: 0,
             evaluations: 0,
+            work: FieldWork::default(),
             options,
         };
         wake.place(&vec![(0.0, 0.0); n_psi]);
@@ -213,11 +215,11 @@ impl<F: InducedVelocity> RelaxationWake<F> {
     /// Induced inflow at the stations without that of the own near wake, -v_z/(omega R) (n_azimuths, n_stations).
     pub fn inflow_far(&mut self) -> Vec<f64> {
         let (n_psi, n_r) = (self.options.steps_per_revolution, self.options.n_stations);
-        let mut inflow = vec![0.0; n_psi * n_r];
+        let (mut inflow, mut lambda) = (vec![0.0; n_psi * n_r], Vec::new());
         for l in 0..n_psi / self.options.n_blades {
             let instant = self.instant_of(l, &self.position, &self.core_squared);
-            let (lambda, evaluations) = station_inflow(&self.field, &self.options, &instant);
-            self.evaluations += evaluations;
+            let wanted = Wanted { stations: Some(&mut lambda), ..Wanted::default() };
+            self.evaluations += field_at(&self.field, &self.options, &instant, &mut self.work, wanted);
             for (blade, values) in lambda.chunks_exact(n_r).enumerate() {
                 let row = self.blade_row(l, blade);
                 inflow[row * n_r..(row + 1) * n_r].copy_from_slice(values);
@@ -364,8 +366,8 @@ impl<F: InducedVelocity> RelaxationWake<F> {
         let mut at_instant = Vec::new();
         for l in 0..self.options.steps_per_revolution / self.options.n_blades {
             let instant = self.instant_of(l, position, core_squared);
-            self.evaluations +=
-                marker_velocity(&self.field, &self.options, &instant, &self.hub, &mut at_instant);
+            let wanted = Wanted { markers: Some((&self.hub, &mut at_instant)), ..Wanted::default() };
+            self.evaluations += field_at(&self.field, &self.options, &instant, &mut self.work, wanted);
             for blade in 0..self.options.n_blades {
                 let to = self.index(self.blade_row(l, blade), 0, 0);
                 let from = instant.free.marker(blade * n_t, 0);

@@ -9,7 +9,7 @@ use super::relaxation::{RelaxationWake, tip_rows};
 use super::stencils::{Cell, unknown_corner};
 use super::trailers;
 use super::velocity_field::{
-    InducedVelocity, Induction, RotorInstant, marker_velocity, point_velocity, station_inflow, sum,
+    FieldWork, InducedVelocity, Induction, RotorInstant, Wanted, field_at, point_velocity, sum,
 };
 use std::f64::consts::TAU;
 
@@ -47,6 +47,20 @@ pub struct TimeMarchingWake<F: InducedVelocity = Induction> {
     levels: [Vec<[f64; 3]>; 3],
     steps: u64,
     evaluations: u64,
+    /// Velocity of the markers at the present level [m/s], where it is known.
+    velocity: Vec<[f64; 3]>,
+    velocity_is_known: bool,
+    work: Work,
+}
+
+/// What a step is made in; nothing of it outlives the step but its room.
+#[derive(Clone, Debug, Default)]
+struct Work {
+    field: FieldWork,
+    next: RotorInstant,
+    carrier: Vec<[f64; 3]>,
+    unknown: Vec<[f64; 3]>,
+    at_new: Vec<[f64; 3]>,
 }
 
 impl<F: InducedVelocity> TimeMarchingWake<F> {
@@ -92,6 +106,9 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
             levels,
             steps: 0,
             evaluations: 0,
+            velocity: Vec::new(),
+            velocity_is_known: false,
+            work: Work::default(),
             options,
         })
     }
@@ -118,66 +135,92 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
         circulation: &[f64],
     ) -> Result<StepReport, WakeError> {
         self.check_input(&hub, blades, circulation)?;
-        let hub = hub.felt(&self.options);
-        let options = &self.options;
-        let n_k = options.n_segments();
-        let mut evaluations = 0;
+        let mut work = std::mem::take(&mut self.work);
+        let report = self.step_in(&mut work, hub.felt(&self.options), blades, circulation);
+        self.work = work;
+        report
+    }
 
-        let mut velocity = Vec::new();
-        evaluations += marker_velocity(&self.field, options, &self.instant, &self.hub, &mut velocity);
-        let (mut next, carrier) = self.shifted(&hub, blades, circulation);
+    fn step_in(
+        &mut self,
+        work: &mut Work,
+        hub: HubMotion,
+        blades: &[BladeState],
+        circulation: &[f64],
+    ) -> Result<StepReport, WakeError> {
+        let mut evaluations = self.renew_velocity(&mut work.field);
+        self.shift(work, &hub, blades, circulation);
+        let Work { field, next, carrier, unknown, at_new } = work;
+        let (options, velocity) = (&self.options, &self.velocity);
 
         // predictor: both ends of the segment at the old level
-        let held = |i: usize| mean(velocity[i], velocity[i + 1]);
         let predictor = match options.predictor {
             Predictor::Same => options.scheme,
             Predictor::Central => Scheme::Pcc,
         };
-        let predicted = self.marched(predictor, &next, &carrier, held);
-        self.place_markers(&mut next, &carrier, &predicted);
-        self.guard(&next)?;
+        self.march(predictor, next, carrier, |i| mean(velocity[i], velocity[i + 1]), unknown);
+        self.place_markers(next, carrier, unknown);
+        self.guard(next)?;
 
-        let mut at_new = Vec::new();
-        evaluations += marker_velocity(&self.field, options, &next, &hub, &mut at_new);
-        let corrected = match options.scheme {
-            Scheme::Bdf2 => self.marched(options.scheme, &next, &carrier, |i| mean(at_new[i], at_new[i + 1])),
-            Scheme::Pcc | Scheme::Pc2b => self.marched(options.scheme, &next, &carrier, |i| {
-                mean(mean(velocity[i], velocity[i + 1]), mean(at_new[i], at_new[i + 1]))
-            }),
-        };
-        self.place_markers(&mut next, &carrier, &corrected);
-        let max_displacement = self.guard(&next)?;
-
-        let mut curvature = 0.0;
-        for filament in 0..next.free.n_filaments {
-            let m = next.free.marker(filament, 0);
-            for i in m + 1..m + n_k {
-                for c in 0..3 {
-                    curvature +=
-                        (corrected[i + 1][c] - 2.0 * self.levels[0][i][c] + self.levels[1][i - 1][c]).powi(2);
-                }
+        let wanted = Wanted { markers: Some((&hub, &mut *at_new)), ..Wanted::default() };
+        evaluations += field_at(&self.field, options, next, field, wanted);
+        let new = |i: usize| mean(at_new[i], at_new[i + 1]);
+        match options.scheme {
+            Scheme::Bdf2 => self.march(options.scheme, next, carrier, new, unknown),
+            Scheme::Pcc | Scheme::Pc2b => {
+                let both = |i: usize| mean(mean(velocity[i], velocity[i + 1]), new(i));
+                self.march(options.scheme, next, carrier, both, unknown);
             }
         }
-        let n_inner = (next.free.n_filaments * (n_k - 1)) as f64;
-        let odd_even = (curvature / n_inner).sqrt() / options.radius;
+        self.place_markers(next, carrier, unknown);
+        let max_displacement = self.guard(next)?;
+        let odd_even = self.odd_even(unknown);
 
         if options.time_filter > 0.0 {
-            for i in 0..corrected.len() {
+            for i in 0..unknown.len() {
                 for c in 0..3 {
-                    let second = corrected[i][c] - 2.0 * self.levels[0][i][c] + self.levels[1][i][c];
+                    let second = unknown[i][c] - 2.0 * self.levels[0][i][c] + self.levels[1][i][c];
                     self.levels[0][i][c] += self.options.time_filter * second;
                 }
             }
         }
         self.levels.rotate_right(1);
-        self.levels[0] = corrected;
-        self.instant = next;
-        self.carrier = carrier;
+        std::mem::swap(&mut self.levels[0], unknown);
+        std::mem::swap(&mut self.instant, next);
+        std::mem::swap(&mut self.carrier, carrier);
+        self.velocity_is_known = false;
         self.hub = hub;
         self.blades.copy_from_slice(blades);
         self.steps += 1;
         self.evaluations += evaluations;
         Ok(StepReport { max_displacement, odd_even, segment_evaluations: evaluations })
+    }
+
+    /// Velocity of the markers at the present level; the number of segment evaluations.
+    fn renew_velocity(&mut self, work: &mut FieldWork) -> u64 {
+        if self.velocity_is_known {
+            return 0;
+        }
+        self.velocity_is_known = true;
+        let wanted = Wanted { markers: Some((&self.hub, &mut self.velocity)), ..Wanted::default() };
+        field_at(&self.field, &self.options, &self.instant, work, wanted)
+    }
+
+    /// RMS of the second difference in time of the inner markers along their characteristics, over R.
+    fn odd_even(&self, new: &[[f64; 3]]) -> f64 {
+        let free = &self.instant.free;
+        let mut curvature = 0.0;
+        for filament in 0..free.n_filaments {
+            let m = free.marker(filament, 0);
+            for i in m + 1..m + free.n_segments {
+                for c in 0..3 {
+                    curvature +=
+                        (new[i + 1][c] - 2.0 * self.levels[0][i][c] + self.levels[1][i - 1][c]).powi(2);
+                }
+            }
+        }
+        let n_inner = (free.n_filaments * (free.n_segments - 1)) as f64;
+        (curvature / n_inner).sqrt() / self.options.radius
     }
 
     /// Options.
@@ -241,6 +284,7 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
     pub fn set_circulation(&mut self, circulation: &[f64]) -> Result<(), WakeError> {
         length("circulation", circulation.len(), self.instant.circulation.len())?;
         finite("circulation", circulation)?;
+        self.velocity_is_known = false;
         self.instant.circulation.copy_from_slice(circulation);
         for (blade, gamma) in circulation.chunks_exact(self.options.n_stations).enumerate() {
             release_circulation(&self.options, &self.grid, &mut self.instant, blade, gamma);
@@ -250,9 +294,19 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
 
     /// Induced inflow at the stations without that of the own near wake, -v_z/(omega R) (n_blades, n_stations).
     pub fn inflow_far(&mut self) -> Vec<f64> {
-        let (inflow, evaluations) = station_inflow(&self.field, &self.options, &self.instant);
-        self.evaluations += evaluations;
+        let mut inflow = Vec::new();
+        let wanted = Wanted { stations: Some(&mut inflow), ..Wanted::default() };
+        self.evaluations += field_at(&self.field, &self.options, &self.instant, &mut self.work.field, wanted);
         inflow
+    }
+
+    /// The same into `inflow`, and in the same pass the velocity that the next step begins with.
+    ///
+    /// For the last call before a step: [`set_circulation`](Self::set_circulation) makes that velocity void.
+    pub fn inflow_far_before_step(&mut self, inflow: &mut Vec<f64>) {
+        self.velocity_is_known = true;
+        let wanted = Wanted { markers: Some((&self.hub, &mut self.velocity)), stations: Some(inflow) };
+        self.evaluations += field_at(&self.field, &self.options, &self.instant, &mut self.work.field, wanted);
     }
 
     /// Velocity induced at `points` [m/s, `_h`] by rotor and wake; near-wake trailers not included.
@@ -287,17 +341,13 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
 
     /// Registers of the new level: everything that travels with the markers moves on by one, the blades release anew.
     /// Markers are still those of the old level.
-    fn shifted(
-        &self,
-        hub: &HubMotion,
-        blades: &[BladeState],
-        circulation: &[f64],
-    ) -> (RotorInstant, Vec<[f64; 3]>) {
+    fn shift(&self, work: &mut Work, hub: &HubMotion, blades: &[BladeState], circulation: &[f64]) {
+        let Work { next, carrier, .. } = work;
         let options = &self.options;
         let (n_k, n_t) = (options.n_segments(), options.trailers_per_blade());
         let (n_r, n_sheet) = (options.n_stations, options.sheet_filaments());
-        let mut next = self.instant.clone();
-        let mut carrier = self.carrier.clone();
+        next.copy(&self.instant);
+        carrier.clone_from(&self.carrier);
         let old_carry = inboard_sheet::convection(options, &self.hub, self.mean_inflow);
         let new_carry = inboard_sheet::convection(options, hub, self.mean_inflow);
         let drift = mean(old_carry, new_carry).map(|v| v * options.delta_psi() / options.omega);
@@ -324,22 +374,22 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
                     next.sheet.position[m] = point;
                 }
             }
-            release_circulation(options, &self.grid, &mut next, blade, gamma);
+            release_circulation(options, &self.grid, next, blade, gamma);
         }
-        (next, carrier)
     }
 
-    /// Unknown at the new level by `scheme`; `velocity(i)` is the mean V of the cell whose marker k is `i` [m/s].
-    fn marched(
+    /// Unknown at the new level by `scheme` into `new`; `velocity(i)` is the mean V of the cell whose marker k is `i` [m/s].
+    fn march(
         &self,
         scheme: Scheme,
         next: &RotorInstant,
         carrier: &[[f64; 3]],
         velocity: impl Fn(usize) -> [f64; 3],
-    ) -> Vec<[f64; 3]> {
+        new: &mut Vec<[f64; 3]>,
+    ) {
         let [now, past, older] = &self.levels;
         let scale = self.options.delta_psi() / self.options.omega;
-        let mut new = vec![[0.0; 3]; now.len()];
+        new.resize(now.len(), [0.0; 3]);
         for filament in 0..next.free.n_filaments {
             let m = next.free.marker(filament, 0);
             new[m] = difference(next.free.position[m], carrier[m]);
@@ -357,7 +407,6 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
                 new[i + 1] = unknown_corner(scheme, &cell, advance);
             }
         }
-        new
     }
 
     /// Positions and cores of the new level from its unknown.

@@ -2,18 +2,18 @@
 
 use super::error::{WakeError, finite};
 use super::filament::Filaments;
-use super::geometry::{BladeGrid, blade_point};
-use super::lattice::{Viewer, bound, push_filament, push_shed};
-use super::options::{BladeState, CoreDistance, HubMotion, Trailers, WakeOptions};
+use super::geometry::{BladeGrid, BladeLine};
+use super::options::{BladeState, CoreDistance, HubMotion, WakeOptions};
+use super::sources::{KINDS, SEEN, WakeSources, push_kind};
 use crate::vortex::core::Core;
 use crate::vortex::curvature::curvature_velocity;
-use crate::vortex::induced_velocity::{Segments, add_segments_velocity};
-use crate::vortex::threads::share;
+use crate::vortex::induced_velocity::Segments;
+use crate::vortex::sources::{Group, Part, add_groups_velocity};
 
 /// Where induced velocity comes from.
 pub trait InducedVelocity: Clone + Send + Sync {
-    /// Adds to `velocity` the induced velocity at `points` [m/s, `_h`], given every vortex segment.
-    fn add(&self, points: &[[f64; 3]], segments: &Segments, velocity: &mut [[f64; 3]]);
+    /// Adds to the velocity of every group what is induced at its points [m/s, `_h`], given the vortices it sees.
+    fn add(&self, groups: &mut [Group<'_>]);
 
     /// Velocity that a marker owes to the curvature of its own filament [m/s], given its neighbours.
     fn self_induced(
@@ -43,8 +43,8 @@ impl VortexSegments {
 }
 
 impl InducedVelocity for VortexSegments {
-    fn add(&self, points: &[[f64; 3]], segments: &Segments, velocity: &mut [[f64; 3]]) {
-        segment_velocity(points, segments, Core::Vatistas2, self.core_distance, velocity);
+    fn add(&self, groups: &mut [Group<'_>]) {
+        add_groups_velocity(groups, Core::Vatistas2, self.core_distance.into());
     }
 
     fn self_induced(
@@ -68,9 +68,11 @@ impl InducedVelocity for VortexSegments {
 pub struct Prescribed<F>(pub F);
 
 impl<F: Fn([f64; 3]) -> [f64; 3] + Clone + Send + Sync> InducedVelocity for Prescribed<F> {
-    fn add(&self, points: &[[f64; 3]], _segments: &Segments, velocity: &mut [[f64; 3]]) {
-        for (v, p) in velocity.iter_mut().zip(points) {
-            add_to(v, (self.0)(*p));
+    fn add(&self, groups: &mut [Group<'_>]) {
+        for group in groups {
+            for (v, p) in group.velocity.iter_mut().zip(group.points) {
+                add_to(v, (self.0)(*p));
+            }
         }
     }
 
@@ -112,10 +114,10 @@ pub enum Induction {
 }
 
 impl InducedVelocity for Induction {
-    fn add(&self, points: &[[f64; 3]], segments: &Segments, velocity: &mut [[f64; 3]]) {
+    fn add(&self, groups: &mut [Group<'_>]) {
         match self {
-            Self::Vortices(vortices) => vortices.add(points, segments, velocity),
-            Self::Linear(field) => Prescribed(|p| field.at(p)).add(points, segments, velocity),
+            Self::Vortices(vortices) => vortices.add(groups),
+            Self::Linear(field) => Prescribed(|p| field.at(p)).add(groups),
         }
     }
 
@@ -134,17 +136,6 @@ impl InducedVelocity for Induction {
     }
 }
 
-/// The one door to the segment law.
-pub(crate) fn segment_velocity(
-    points: &[[f64; 3]],
-    segments: &Segments,
-    core: Core,
-    core_distance: CoreDistance,
-    velocity: &mut [[f64; 3]],
-) {
-    add_segments_velocity(points, segments, core, core_distance.into(), velocity);
-}
-
 /// The rotor and its wake at one instant.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RotorInstant {
@@ -159,7 +150,7 @@ pub struct RotorInstant {
     /// Bound circulation (n_blades, n_stations) [m2/s].
     pub circulation: Vec<f64>,
     /// Edges that the trailers of a blade leave from.
-    trailer_edges: Vec<usize>,
+    pub(super) trailer_edges: Vec<usize>,
 }
 
 impl RotorInstant {
@@ -184,12 +175,12 @@ impl RotorInstant {
         blade: &BladeState,
         circulation: &[f64],
     ) {
-        let n = options.n_stations;
+        let (n, line) = (options.n_stations, BladeLine::new(options, blade));
         for (j, r) in grid.edges.iter().enumerate() {
-            self.edge[i_blade * (n + 1) + j] = blade_point(options, blade, *r);
+            self.edge[i_blade * (n + 1) + j] = line.at(*r);
         }
         for (j, r) in grid.stations.iter().enumerate() {
-            self.station[i_blade * n + j] = blade_point(options, blade, *r);
+            self.station[i_blade * n + j] = line.at(*r);
         }
         self.circulation[i_blade * n..(i_blade + 1) * n].copy_from_slice(circulation);
     }
@@ -198,67 +189,88 @@ impl RotorInstant {
     /// beyond the near wake only, and no core smaller than the floor.
     pub fn segments(&self, options: &WakeOptions, own_blade: Option<usize>) -> Segments {
         let mut segments = Segments::default();
-        let floor = match own_blade {
-            Some(_) => options.station_core_floor * options.chord,
-            None => 0.0,
-        };
-        let (n_free, n_sheet) = (options.trailers_per_blade(), options.sheet_filaments());
-        let own = |blade: usize| own_blade == Some(blade);
-        let viewer =
-            |blade: usize| Viewer { first: if own(blade) { options.near_wake_markers() } else { 0 }, floor };
-        for i in 0..self.free.n_filaments {
-            push_filament(&mut segments, options, &self.free, i, viewer(i / n_free));
-        }
-        for blade in 0..options.n_blades {
-            push_shed(&mut segments, options, &self.free, blade, own(blade), viewer(blade));
-        }
-        for i in 0..self.sheet.n_filaments {
-            push_filament(&mut segments, options, &self.sheet, i, viewer(i / n_sheet));
-        }
-        let n = options.n_stations;
-        let bound_core = (options.bound_core * options.chord).max(floor);
-        for blade in (0..options.n_blades).filter(|b| !own(*b)) {
-            let strength: Vec<f64> = match options.trailers {
-                Trailers::Tip => self.circulation[blade * n..(blade + 1) * n].to_vec(),
-                Trailers::FullSpan => bound(options, &self.trailer_edges, &self.free, blade).collect(),
-            };
-            for (j, gamma) in strength.into_iter().enumerate() {
-                let edge = blade * (n + 1) + j;
-                push(&mut segments, self.edge[edge], self.edge[edge + 1], gamma, bound_core);
+        let floor = own_blade.map_or(0.0, |_| options.station_core_floor * options.chord);
+        for kind in KINDS {
+            for blade in 0..options.n_blades {
+                push_kind(&mut segments, options, self, kind, blade, own_blade == Some(blade), floor);
             }
         }
         segments
     }
+
+    /// Becomes a copy of `other`; room is kept.
+    pub fn copy(&mut self, other: &Self) {
+        self.free.copy(&other.free);
+        self.sheet.copy(&other.sheet);
+        self.edge.clone_from(&other.edge);
+        self.station.clone_from(&other.station);
+        self.circulation.clone_from(&other.circulation);
+        self.trailer_edges.clone_from(&other.trailer_edges);
+    }
 }
 
-/// Appends one segment.
-pub(crate) fn push(
-    segments: &mut Segments,
-    start: [f64; 3],
-    end: [f64; 3],
-    circulation: f64,
-    core_radius: f64,
-) {
-    segments.start.push(start);
-    segments.end.push(end);
-    segments.circulation.push(circulation);
-    segments.core_radius.push(core_radius);
+/// What a field at one instant is made with: the vortices packed, velocities at the stations. Kept from step to step.
+#[derive(Clone, Debug, Default)]
+pub struct FieldWork {
+    sources: WakeSources,
+    station_velocity: Vec<[f64; 3]>,
 }
 
-/// Velocity of the markers of the free filaments relative to the hub axes, with the wind [m/s, `_h`]; also the number of
-/// segment evaluations.
-pub fn marker_velocity<F: InducedVelocity>(
+/// Where the field of one instant is wanted: at markers, at stations, or at both in one pass.
+#[derive(Debug, Default)]
+pub struct Wanted<'a> {
+    /// Velocity of the markers of the free filaments relative to the hub axes, with the wind of the hub's motion
+    /// [m/s, `_h`].
+    pub markers: Option<(&'a HubMotion, &'a mut Vec<[f64; 3]>)>,
+    /// Induced inflow at the blade stations without that of the own near wake, -v_z/(omega R) (n_blades, n_stations).
+    pub stations: Option<&'a mut Vec<f64>>,
+}
+
+/// The field of one instant where it is wanted; the number of segment evaluations.
+pub fn field_at<F: InducedVelocity>(
     field: &F,
     options: &WakeOptions,
     instant: &RotorInstant,
-    hub: &HubMotion,
-    velocity: &mut Vec<[f64; 3]>,
+    work: &mut FieldWork,
+    wanted: Wanted<'_>,
 ) -> u64 {
-    let free = &instant.free;
-    velocity.clear();
-    velocity.extend(free.position.iter().map(|p| hub.wind(*p)));
-    let segments = instant.segments(options, None);
-    field.add(&free.position, &segments, velocity);
+    let Wanted { mut markers, stations } = wanted;
+    let FieldWork { sources, station_velocity } = work;
+    sources.pack(options, instant, stations.is_some());
+    let n_seen = if stations.is_some() { options.n_blades } else { 0 };
+    let seen: Vec<[Part<'_>; SEEN]> = (0..n_seen).map(|blade| sources.seen_from(blade)).collect();
+    station_velocity.clear();
+    station_velocity.resize(n_seen * options.n_stations, [0.0; 3]);
+
+    let whole = [sources.whole()];
+    let mut groups = Vec::with_capacity(n_seen + 1);
+    if let Some((hub, velocity)) = &mut markers {
+        let points = &instant.free.position;
+        velocity.clear();
+        velocity.extend(points.iter().map(|p| hub.wind(*p)));
+        groups.push(Group { points, sources: &whole, velocity });
+    }
+    let at_blades = instant.station.chunks_exact(options.n_stations);
+    for ((points, velocity), parts) in
+        at_blades.zip(station_velocity.chunks_exact_mut(options.n_stations)).zip(&seen)
+    {
+        groups.push(Group { points, sources: parts, velocity });
+    }
+    let evaluations = groups.iter().map(Group::evaluations).sum();
+    field.add(&mut groups);
+
+    if let Some((_, velocity)) = markers {
+        add_self_induced(field, &instant.free, velocity);
+    }
+    if let Some(inflow) = stations {
+        inflow.clear();
+        inflow.extend(station_velocity.iter().map(|v| -v[2] / options.tip_speed()));
+    }
+    evaluations
+}
+
+/// Adds what the markers owe to the curvature of their own filaments.
+fn add_self_induced<F: InducedVelocity>(field: &F, free: &Filaments, velocity: &mut [[f64; 3]]) {
     for i in 0..free.n_filaments {
         for k in 1..free.n_segments {
             let m = free.marker(i, k);
@@ -276,31 +288,6 @@ pub fn marker_velocity<F: InducedVelocity>(
             add_to(&mut velocity[m], local);
         }
     }
-    (free.position.len() * segments.start.len()) as u64
-}
-
-/// Induced inflow at the blade stations without that of the own near wake, -v_z/(omega R) (n_blades, n_stations); also
-/// the number of segment evaluations.
-pub fn station_inflow<F: InducedVelocity>(
-    field: &F,
-    options: &WakeOptions,
-    instant: &RotorInstant,
-) -> (Vec<f64>, u64) {
-    let n = options.n_stations;
-    let mut inflow = vec![0.0; options.n_blades * n];
-    let mut evaluations = vec![0; options.n_blades];
-    let blades = inflow.chunks_mut(n).zip(&mut evaluations).enumerate();
-    share(blades, |(blade, (inflow, evaluations))| {
-        let segments = instant.segments(options, Some(blade));
-        let mut velocity = vec![[0.0; 3]; n];
-        field.add(&instant.station[blade * n..(blade + 1) * n], &segments, &mut velocity);
-        for (lambda, v) in inflow.iter_mut().zip(&velocity) {
-            *lambda = -v[2] / options.tip_speed();
-        }
-        *evaluations = (n * segments.start.len()) as u64;
-    });
-    let evaluations = evaluations.iter().sum();
-    (inflow, evaluations)
 }
 
 /// Velocity induced by rotor and wake at `points` [m/s, `_h`]; bound vortices included, near-wake trailers not.
@@ -311,7 +298,10 @@ pub fn point_velocity<F: InducedVelocity>(
     points: &[[f64; 3]],
 ) -> Vec<[f64; 3]> {
     let mut velocity = vec![[0.0; 3]; points.len()];
-    field.add(points, &instant.segments(options, None), &mut velocity);
+    let mut sources = WakeSources::default();
+    sources.pack(options, instant, false);
+    let whole = [sources.whole()];
+    field.add(&mut [Group { points, sources: &whole, velocity: &mut velocity }]);
     velocity
 }
 
