@@ -29,3 +29,12 @@ def hover(rotor, wake=DEFAULT, **arguments):
     blade_model = options.pop("blade_model", "lifting-line")
     model = configured(rotor, "relaxation", options, HOVER)
     return wf.tunnel(rotor, inflow=model, blade_model=blade_model, **arguments)
+
+
+BASELINE = "baseline: blade elements and annular momentum, Prandtl's tip loss"
+"""No wake: what a user would compute first, to see the wakes against; never gated."""
+
+
+def baseline(rotor, **arguments):
+    """Rotor in hover with annular momentum inflow."""
+    return wf.tunnel(rotor, inflow="annular", **arguments)

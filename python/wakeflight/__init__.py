@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from .converge import converge
     from .errors import InputError, NumericalFailure, WakeflightError
     from .flight import Flight, fly
-    from .inflow import DynamicInflow, RelaxationWake, TimeMarchingWake, inflow_model
+    from .inflow import AnnularInflow, DynamicInflow, RelaxationWake, TimeMarchingWake, inflow_model
     from .maneuvers import Maneuver, arrested_descent, load_maneuver, roll_reversal
     from .modes import blade_modes
     from .references import bibtex
@@ -44,6 +44,7 @@ _HOME = {
     "WakeflightError": "errors",
     "Flight": "flight",
     "fly": "flight",
+    "AnnularInflow": "inflow",
     "DynamicInflow": "inflow",
     "RelaxationWake": "inflow",
     "TimeMarchingWake": "inflow",
@@ -65,6 +66,7 @@ _HOME = {
 
 __all__ = [
     "Aircraft",
+    "AnnularInflow",
     "DynamicInflow",
     "Flight",
     "FlightCondition",

@@ -50,6 +50,7 @@ AzimuthStep = Annotated[str | None, typer.Option("--azimuth-step", help='divides
 WakeTurns = Annotated[float | None, typer.Option("--wake-turns", help="length of the free filaments")]
 WakeScheme = Annotated[str | None, typer.Option("--wake-scheme", help="bdf2, pc2b, pcc")]
 Integrator = Annotated[str, typer.Option("--integrator", help="ida, fixed")]
+Blades = Annotated[str | None, typer.Option("--blades", help="rigid, flexible; the aircraft's own")]
 Threads = Annotated[int | None, typer.Option("--threads", help="threads of the physics core")]
 Out = Annotated[Path | None, typer.Option("--out", help="folder for results")]
 
@@ -84,6 +85,7 @@ def fly(
     wake_turns: WakeTurns = None,
     wake_scheme: WakeScheme = None,
     integrator: Integrator = "ida",
+    blades: Blades = None,
     threads: Threads = None,
     out: Out = None,
 ) -> None:
@@ -91,7 +93,7 @@ def fly(
     given = _given(speed, flight_path, altitude, weight, sideslip, turn_rate, bank)
     wake = {"azimuth_step": azimuth_step, "turns": wake_turns, "scheme": wake_scheme}
     _check_flight(revolutions, integrator)
-    request = _request(aircraft, loading, condition, given, inflow, wake, threads, maneuver, out)
+    request = _request(aircraft, loading, condition, given, inflow, wake, threads, maneuver, out, blades=blades)
     from .progress import Progress
 
     with Progress() as progress:
@@ -169,13 +171,15 @@ def trim(
     azimuth_step: AzimuthStep = None,
     wake_turns: WakeTurns = None,
     wake_scheme: WakeScheme = None,
+    blades: Blades = None,
     threads: Threads = None,
     out: Out = None,
 ) -> None:
     """Trim the aircraft, print a table, write trim.nc."""
     given = _given(speed, flight_path, altitude, weight, sideslip, turn_rate, bank)
     wake = {"azimuth_step": azimuth_step, "turns": wake_turns, "scheme": wake_scheme}
-    request = _request(aircraft, loading, condition, given, inflow, wake, threads, None, out or Path("runs/trim"))
+    folder = out or Path("runs/trim")
+    request = _request(aircraft, loading, condition, given, inflow, wake, threads, None, folder, blades=blades)
     from .progress import Progress
     from .trim import trim as solve
 
@@ -366,7 +370,9 @@ def tunnel(
         str, typer.Option("--shaft-angle", help="tilt of the shaft, aft + (disk met from below)")
     ] = "0 deg",
     climb: Annotated[str, typer.Option("--climb", help='up the shaft, descent -, "-5 m/s"')] = "0 m/s",
-    inflow: InflowName = "time-marching",
+    inflow: Annotated[
+        str, typer.Option("--inflow", help="time-marching, relaxation, dynamic, annular (hover, axial climb)")
+    ] = "time-marching",
     collective_at: Annotated[
         str, typer.Option("--collective-at", help='where the collective is meant: root, "0.75 R"')
     ] = "root",
@@ -534,6 +540,7 @@ def _request(
     maneuver: str | None,
     out: Path | None,
     lenient: bool = False,
+    blades: str | None = None,
 ) -> _Request:
     """Everything that was typed, read and checked; nothing is started.
 
@@ -547,7 +554,13 @@ def _request(
     _set_threads(threads)
     flown = load_maneuver(maneuver) if maneuver is not None else None
     model = _configured(inflow_model(inflow), wake, lenient)
+    if blades not in (None, "rigid", "flexible"):
+        raise InputError.of("--blades", blades, "allowed: rigid, flexible")
     loaded = load_aircraft(aircraft, loading)
+    if blades == "rigid":
+        loaded = loaded.with_rigid_blades()
+    elif blades == "flexible" and not loaded.flexible:
+        raise InputError.of("--blades", blades, f"the blades of {loaded.name} are rigid in its file")
     complete = condition_for(loaded, named=condition, **given)
     loaded.core_data(complete)
     model.step(loaded)
@@ -622,7 +635,18 @@ def _fly_once(request: _Request, revolutions: float | None, integrator: str, out
     _save(flight, out, progress)
     if not flight.finished:
         raise NumericalFailure(flight.failure or "the flight did not finish", partial=flight)
+    progress(_pace(flight.data))
     return flight
+
+
+def _pace(data: Any) -> str:
+    """Time flown against the time it took, in words."""
+    wake, dynamics = (float(data.attrs[f"seconds_{part}"]) for part in ("wake", "dynamics"))
+    flown, taken = float(data.time[-1]), wake + dynamics
+    return (
+        f"flew {flown:.2f} s in {taken:.3g} s, {flown / taken:.3g} times as fast as time: wake {wake:.3g} s, flight dynamics "
+        f"{dynamics:.3g} s by {data.attrs['integration_method']}, {data.attrs['blades']} blades"
+    )
 
 
 def _save(flight: Any, out: Path, progress: Progress) -> None:

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import copy
 import time
+from bisect import bisect_left, bisect_right
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
@@ -75,7 +76,7 @@ class Sticks:
     def __init__(self, maneuver: Maneuver, trim_si: np.ndarray):
         self.maneuver = maneuver
         self.trim_in = trim_si / INCH
-        self.corners = np.asarray(maneuver.corners())
+        self.corners = sorted(maneuver.corners())
 
     def at(self, t: float) -> np.ndarray:
         """Positions (4,) [m from the stop] at time `t` [s]."""
@@ -87,8 +88,8 @@ class Sticks:
 
     def pieces(self, t0: float, t1: float) -> list[tuple[float, float]]:
         """The interval t0..t1 cut at the corners of the history."""
-        inner = self.corners[(self.corners > t0 + 1e-9) & (self.corners < t1 - 1e-9)]
-        ends = [t0, *inner.tolist(), t1]
+        first = bisect_right(self.corners, t0 + 1e-9)
+        ends = [t0, *self.corners[first : bisect_left(self.corners, t1 - 1e-9)], t1]
         return list(zip(ends[:-1], ends[1:], strict=True))
 
 
@@ -169,7 +170,8 @@ def fly(
 ) -> Flight:
     """Fly `maneuver` from `start`.
 
-    integrator: `ida`, variable in step and order, or `fixed`, one implicit step of order five per coupling step.
+    integrator: `ida`, variable in step and order, or `fixed`, one step of order five per coupling step: implicit where blades
+    bend, explicit where they are rigid.
     rtol: relative tolerance of the solver, its absolute ones go with it.
     stabilator: `held` at its trim incidence, or `scheduled`, following its schedule within the rate of its servo.
 
@@ -203,35 +205,39 @@ def fly(
     progress.phase("flight", n_steps / model.steps_per_revolution)
     y, failure = start.state(0.0), None
     incidence = start.stabilator_incidence
+    stick, stick_rate = sticks.at(0.0), sticks.rate(0.0)
     try:
         for step in range(n_steps):
             t = step * delta_t
             held, mean = source.held(step)
             if stabilator == "scheduled" and step > 0:
-                incidence = scheduled_incidence(model, incidence, y, sticks.at(t), delta_t)
-            inputs = coupling_inputs(sticks, t, held, mean, incidence)
+                incidence = scheduled_incidence(model, incidence, y, stick, delta_t)
+            inputs = _core.Inputs(stick, stick_rate, t, held, mean, incidence)
             clock = time.perf_counter()
             y_dot = solver.consistent(t, y, inputs)
             seconds["dynamics"] += time.perf_counter() - clock
-            recorder.record(step, t, y, y_dot, inputs, sticks.at(t), mean, incidence)
+            recorder.record(step, t, y, y_dot, inputs, stick, mean, incidence)
 
             clock = time.perf_counter()
             if step == 0:
                 solver.start(t, y, y_dot)
             for t0, t1 in sticks.pieces(t, (step + 1) * delta_t):
-                solver.advance_to(t1, coupling_inputs(sticks, t0, held, mean, incidence))
+                if t0 > t:
+                    inputs = coupling_inputs(sticks, t0, held, mean, incidence)
+                solver.advance_to(t1, inputs)
             y = solver.state
-            clock_wake = time.perf_counter()
-            seconds["dynamics"] += clock_wake - clock
+            seconds["dynamics"] += time.perf_counter() - clock
 
             t = (step + 1) * delta_t
-            source.exchange(step + 1, y, sticks.at(t), sticks.rate(t))
-            seconds["wake"] += time.perf_counter() - clock_wake
+            stick, stick_rate = sticks.at(t), sticks.rate(t)
+            clock = time.perf_counter()
+            source.exchange(step + 1, y, stick, stick_rate)
+            seconds["wake"] += time.perf_counter() - clock
             progress.advance(1 / model.steps_per_revolution, f"t = {t:.2f} s")
         t = n_steps * delta_t
         held, mean = source.held(n_steps)
-        inputs = coupling_inputs(sticks, t, held, mean, incidence)
-        recorder.record(n_steps, t, y, solver.consistent(t, y, inputs), inputs, sticks.at(t), mean, incidence)
+        inputs = _core.Inputs(stick, stick_rate, t, held, mean, incidence)
+        recorder.record(n_steps, t, y, solver.consistent(t, y, inputs), inputs, stick, mean, incidence)
     except (NumericalFailure, ArithmeticError, np.linalg.LinAlgError) as reason:
         revolution = (recorder.n_recorded - 1) / model.steps_per_revolution
         failure = f"flight of {maneuver.name} stopped in revolution {revolution:.2f}: {reason}"
@@ -245,6 +251,9 @@ def fly(
         "seconds_wake": seconds["wake"],
         "seconds_dynamics": seconds["dynamics"],
         "seconds_total": start.seconds + time.perf_counter() - begun,
+        "integrator": integrator,
+        "integration_method": solver.method,
+        "blades": "flexible" if start.aircraft.flexible else "rigid",
         **solver.statistics,
     }
     data = recorder.dataset(attributes, phase, warnings, failure)

@@ -26,6 +26,7 @@ _CHOICES = {
     "tip_strength": ("equivalent", "max", "mean"),
     "inboard_wake": ("none", "sheet"),
     "core_distance": ("line", "segment"),
+    "tip_loss": ("prandtl", "none"),
 }
 
 # smallest and largest value of each number
@@ -322,8 +323,41 @@ class DynamicInflow:
         return ("pitt1981", "peters1988")
 
 
+@dataclass(frozen=True)
+class AnnularInflow:
+    """Momentum of every ring of the disk for itself [leishman2006]: hover and axial climb, on the stand alone."""
+
+    n_stations: int = 20
+    """Blade stations, at the middles of elements that narrow towards the tip."""
+    azimuth_step: Any = None
+    """Step at which results are kept; None is the rotor's (10 deg)."""
+    tip_loss: str = "prandtl"
+    """Prandtl's loss of momentum towards the tip, or none."""
+
+    name: ClassVar[str] = "annular"
+
+    def __post_init__(self) -> None:
+        """Check every option; angles become radians."""
+        _check_options(self)
+
+    def step(self, aircraft: Aircraft) -> float:
+        """Azimuth step on this rotor [rad]; it must divide 360 deg over the number of blades."""
+        step = aircraft.discretisation.azimuth_step if self.azimuth_step is None else self.azimuth_step
+        check_azimuth_step(step, int(aircraft.rotor.n_blades))
+        return step
+
+    def as_attributes(self) -> dict[str, Any]:
+        """Options by name, angles [rad], for the attributes of a result."""
+        return {field.name: getattr(self, field.name) for field in fields(self)}
+
+    @property
+    def references(self) -> tuple[str, ...]:
+        """Keys of references.bib."""
+        return ("leishman2006",)
+
+
 InflowModel = TimeMarchingWake | RelaxationWake | DynamicInflow
-"""Any of the three."""
+"""Any of the three that a helicopter can fly with."""
 
 MODELS: dict[str, type[InflowModel]] = {
     model.name: model for model in (TimeMarchingWake, RelaxationWake, DynamicInflow)

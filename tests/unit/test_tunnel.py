@@ -137,6 +137,31 @@ def test_a_wake_of_three_blades_and_its_velocity(tmp_path):
     assert velocity.shape == (2, 3) and np.all(velocity[:, 2] < 0)
 
 
+def test_rings_of_annular_inflow_carry_the_lift_of_their_blade_elements(tmp_path):
+    # flapping blades in a climb: N_b Gamma Omega = 4 pi F lambda (lambda + lambda_c) (Omega R)^2, Prandtl's F; and the sum of
+    # the rings is the thrust, but for the drag and the tilt of the lift
+    stand = wf.tunnel(written(tmp_path), "16 deg", climb="5 m/s", inflow="annular")
+    data, omega, radius = stand.data, stand.model.omega, stand.radius
+    r, lam, gamma = data.station.values, data.inflow.values[0], data.circulation.values.mean(axis=0)
+    through = lam + 5.0 / (omega * radius)
+    loss = 2 / np.pi * np.arccos(np.exp(-1.5 * (1 - r) / through))
+    np.testing.assert_allclose(3 * gamma / omega, 4 * np.pi * loss * lam * through * radius**2, rtol=1e-7)
+    rings = 4 * loss * lam * through * r * data.width.values / radius
+    assert rings.sum() == pytest.approx(stand.ct, rel=0.02)
+    assert stand.beta_0 > 0.01 and stand.settled
+    assert wf.tunnel(written(tmp_path), ct=stand.ct, climb="5 m/s", inflow="annular").theta_0 == pytest.approx(
+        np.radians(16.0), abs=1e-6
+    )
+    free = wf.tunnel(written(tmp_path), "16 deg", climb="5 m/s", inflow=wf.AnnularInflow(tip_loss="none"))
+    assert 1.02 < free.ct / stand.ct < 1.15
+
+
+@pytest.mark.parametrize("given", [{"speed": "5 m/s"}, {"climb": "-1 m/s"}, {"roll_rate": "5 deg/s"}])
+def test_rings_are_refused_where_they_do_not_hold(given, tmp_path):
+    with pytest.raises(wf.InputError, match="hover and axial climb"):
+        wf.tunnel(written(tmp_path), inflow="annular", **given)
+
+
 def test_weissinger_wings_have_the_known_lift():
     slope = wf.wing(6.0, 1.0, "5.7106 deg").cl / np.radians(5.7106)
     assert slope == pytest.approx(4.1743, abs=1e-4)

@@ -1,6 +1,8 @@
 """Thrust of the rotor of Caradonna and Tung."""
 
-from settings import HOVER_WAKES, hover
+from functools import partial
+
+from settings import BASELINE, HOVER_WAKES, baseline, hover
 
 from wakeflight.plotting import style
 from wakeflight.validate import Check, Outcome
@@ -10,11 +12,9 @@ def run(case):
     table = case.table("thrust.csv")
     rotor = case.path("rotors/caradonna-tung.toml")
     checks, found = [], {}
-    for name in HOVER_WAKES:
-        ours = [
-            hover(rotor, name, collective=f"{theta} deg", rpm=rpm).ct
-            for theta, rpm in zip(table["theta_deg"], table["rpm"])
-        ]
+    for name in [*HOVER_WAKES, BASELINE]:
+        solved = partial(baseline, rotor) if name == BASELINE else partial(hover, rotor, name)
+        ours = [solved(collective=f"{theta} deg", rpm=rpm).ct for theta, rpm in zip(table["theta_deg"], table["rpm"])]
         found[name] = ours
         default = name.startswith("default")
         for theta, mach, ct, measured in zip(table["theta_deg"], table["Mtip"], ours, table["CT"]):
@@ -25,7 +25,7 @@ def run(case):
 
 @style.styled
 def draw(table, found):
-    figure = style.blank(3.2)
+    figure = style.blank(4.0)
     axes = figure.subplots()
     axes.plot(table["Mtip"], table["CT"], "ko", label="measured")
     for (name, ours), color in zip(found.items(), style.COLORS):
@@ -45,5 +45,5 @@ def draw(table, found):
     axes.set_ylim(0, None)
     axes.set_xlabel("tip Mach number")
     axes.set_ylabel("thrust coefficient C_T")
-    axes.legend(loc="center left", bbox_to_anchor=(0.0, 0.55))
+    figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=2)
     return figure

@@ -1,7 +1,9 @@
 """Hover performance of the rotors of Knight and Hefner."""
 
+from functools import partial
+
 import numpy as np
-from settings import HOVER_WAKES, hover
+from settings import BASELINE, HOVER_WAKES, baseline, hover
 
 from wakeflight.plotting import style
 from wakeflight.validate import Check, Outcome
@@ -14,9 +16,10 @@ def run(case):
     for blades in (2, 4):
         rows = keep & (table["blades"] == blades)
         rotor = case.path(f"rotors/knight-hefner-{blades}.toml")
-        for name in list(HOVER_WAKES)[:2]:
+        for name in [*list(HOVER_WAKES)[:2], BASELINE]:
             default = name.startswith("default")
-            found = [hover(rotor, name, collective=f"{t:g} deg") for t in table["theta_deg"][rows]]
+            solved = partial(baseline, rotor) if name == BASELINE else partial(hover, rotor, name)
+            found = [solved(collective=f"{t:g} deg") for t in table["theta_deg"][rows]]
             curves.append((blades, name, table["theta_deg"][rows], [(s.ct, s.cq) for s in found]))
             for theta, stand, ct, cq in zip(table["theta_deg"][rows], found, table["CT"][rows], table["CQ"][rows]):
                 note = "; ".join([*([] if default else [name]), *stand.notes])
@@ -36,9 +39,9 @@ def draw(table, curves):
         right.plot(table["CT"][rows], table["CQ"][rows], "k" + marker, ms=4)
     for blades, name, theta, found in curves:
         ct, cq = np.transpose(found)
-        color = style.COLORS[0 if name.startswith("default") else 1]
-        left.plot(theta, ct, color=color, label=name if blades == 2 else None)
-        right.plot(ct, cq, color=color)
+        i = [*list(HOVER_WAKES)[:2], BASELINE].index(name)
+        left.plot(theta, ct, style.LINES[i], color=style.COLORS[i], label=name if blades == 2 else None)
+        right.plot(ct, cq, style.LINES[i], color=style.COLORS[i])
     left.set_xlabel("collective [deg]")
     left.set_ylabel("thrust coefficient C_T")
     right.set_xlabel("thrust coefficient C_T")

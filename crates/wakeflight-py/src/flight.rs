@@ -7,7 +7,10 @@ use crate::wake::{
     RelaxationWake, TimeMarchingWake as PyTimeMarchingWake, flat, marched_lattice, matrix, parse_options,
     py_error, tip_circulation, tip_core, vectors,
 };
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyArray4, PyReadonlyArray1, PyReadonlyArray2};
+use numpy::{
+    IntoPyArray, PyArray1, PyArray2, PyArray3, PyArray4, PyReadonlyArray1, PyReadonlyArray2,
+    PyReadwriteArray2,
+};
 use pyo3::exceptions::{PyArithmeticError, PyValueError};
 use pyo3::prelude::*;
 use std::f64::consts::TAU;
@@ -15,7 +18,9 @@ use wakeflight::aircraft::model::{HeldInflow, Inputs};
 use wakeflight::blade::aerodynamics::Air;
 use wakeflight::blade::kinematics::ModalMotion;
 use wakeflight::blade::loads::HubMotion;
-use wakeflight::integrate::fixed::{FixedStep, StepFailure};
+use wakeflight::integrate::explicit::{ExplicitFailure, ExplicitStep};
+use wakeflight::integrate::fixed::{Counters, FixedStep, StepFailure};
+use wakeflight::integrate::linearised::Linearised;
 use wakeflight::rotor::circulation::BladeInstant;
 use wakeflight::rotor::exchange::{ExchangeOptions, MarchingExchange};
 use wakeflight::rotor::hub::Rotor;
@@ -76,8 +81,113 @@ impl PyFixedStep {
 
     /// Residual evaluations, Jacobians, factorisations, Newton iterations, steps, halvings.
     fn counters(&self) -> (u64, u64, u64, u64, u64, u64) {
-        let c = self.inner.counters();
-        (c.residual_evaluations, c.jacobians, c.factorisations, c.newton_iterations, c.steps, c.halvings)
+        counted(self.inner.counters())
+    }
+}
+
+fn stopped(error: ExplicitFailure) -> PyErr {
+    PyArithmeticError::new_err(error.to_string())
+}
+
+/// Fixed explicit steps of an aircraft whose blades do not bend; see `wakeflight.integrators`.
+#[pyclass(name = "ExplicitStep")]
+struct PyExplicitStep {
+    inner: ExplicitStep,
+}
+
+#[pymethods]
+impl PyExplicitStep {
+    /// At state `y` and time `t` [s], with the tolerances that guard the step.
+    #[new]
+    fn new(
+        aircraft: &PyAircraft,
+        t: f64,
+        y: PyReadonlyArray1<f64>,
+        rtol: f64,
+        atol: PyReadonlyArray1<f64>,
+    ) -> PyResult<Self> {
+        let inner = ExplicitStep::new(&aircraft.inner, t, y.as_slice()?, rtol, atol.as_slice()?)
+            .ok_or_else(|| PyValueError::new_err("explicit steps: for blades that do not bend"))?;
+        Ok(Self { inner })
+    }
+
+    /// The rate then satisfies F = 0 with `inputs`.
+    fn prepare(&mut self, aircraft: &PyAircraft, inputs: &PyInputs) -> PyResult<()> {
+        self.inner.prepare(&aircraft.inner, &inputs.0).map_err(stopped)
+    }
+
+    /// Integrates to `t1` [s] in `parts` equal steps with `inputs` held.
+    fn advance(&mut self, aircraft: &PyAircraft, t1: f64, inputs: &PyInputs, parts: usize) -> PyResult<()> {
+        self.inner.advance(&aircraft.inner, t1, &inputs.0, parts).map_err(stopped)
+    }
+
+    /// State.
+    fn state<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.inner.state().to_vec().into_pyarray(py)
+    }
+
+    /// Rate of state.
+    fn rate<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.inner.rate().to_vec().into_pyarray(py)
+    }
+
+    /// Residual evaluations, Jacobians, factorisations, Newton iterations, steps, halvings.
+    fn counters(&self) -> (u64, u64, u64, u64, u64, u64) {
+        counted(self.inner.counters())
+    }
+}
+
+fn counted(c: Counters) -> (u64, u64, u64, u64, u64, u64) {
+    (c.residual_evaluations, c.jacobians, c.factorisations, c.newton_iterations, c.steps, c.halvings)
+}
+
+/// F linearised once for a solver that asks for its derivatives again and again; see `wakeflight.integrators`.
+#[pyclass(name = "Linearised")]
+struct PyLinearised {
+    inner: Linearised,
+}
+
+#[pymethods]
+impl PyLinearised {
+    #[new]
+    fn new(aircraft: &PyAircraft) -> Self {
+        Self { inner: Linearised::new(aircraft.inner.layout) }
+    }
+
+    /// Linearises at (t, y); y_dot that satisfies F = 0 there, from the guess `y_dot`.
+    fn consistent<'py>(
+        &mut self,
+        py: Python<'py>,
+        aircraft: &PyAircraft,
+        t: f64,
+        y: PyReadonlyArray1<f64>,
+        y_dot: PyReadonlyArray1<f64>,
+        inputs: &PyInputs,
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let mut rate = y_dot.as_slice()?.to_vec();
+        self.inner
+            .consistent(&aircraft.inner, t, y.as_slice()?, &mut rate, &inputs.0)
+            .map_err(|e| PyArithmeticError::new_err(e.to_string()))?;
+        Ok(rate.into_pyarray(py))
+    }
+
+    /// Linearises at (t, y, y_dot).
+    fn renew(
+        &mut self,
+        aircraft: &PyAircraft,
+        t: f64,
+        y: PyReadonlyArray1<f64>,
+        y_dot: PyReadonlyArray1<f64>,
+        inputs: &PyInputs,
+    ) -> PyResult<()> {
+        self.inner.renew(&aircraft.inner, t, y.as_slice()?, y_dot.as_slice()?, &inputs.0);
+        Ok(())
+    }
+
+    /// dF/dy + c dF/dy_dot of the instant last linearised at, into `out` (n, n).
+    fn matrix(&self, c: f64, mut out: PyReadwriteArray2<f64>) -> PyResult<()> {
+        self.inner.slopes.dense(1.0, c, out.as_slice_mut()?);
+        Ok(())
     }
 }
 
@@ -259,5 +369,7 @@ impl PyMarchingExchange {
 /// Registers the classes of this file.
 pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_class::<PyFixedStep>()?;
+    m.add_class::<PyLinearised>()?;
+    m.add_class::<PyExplicitStep>()?;
     m.add_class::<PyMarchingExchange>()
 }

@@ -1,6 +1,6 @@
 //! Section coefficients by angle of attack and Mach number.
 
-use crate::numerics::scalar::Real;
+use crate::numerics::scalar::{OfTwo, Real};
 use crate::numerics::tables::Grid;
 use serde::Deserialize;
 use std::f64::consts::{PI, TAU};
@@ -213,40 +213,44 @@ impl Airfoil {
     /// `alpha` [rad]: any angle, taken to -pi..pi. `mach`: held beyond the table.
     #[inline(always)]
     pub fn coefficients<S: Real>(&self, alpha: S, mach: S) -> (S, S, S) {
-        let mut angle = alpha.re();
-        if angle.abs() > PI {
-            angle -= TAU * (angle / TAU).round();
-        }
-        let (i, f, df) = self.alpha.cell(angle);
-        let (j, g, dg) = self.mach.cell(mach.re());
-        let n_mach = self.mach.nodes.len();
-        let low = &self.nodes[i * n_mach + j..][..2];
-        let high = &self.nodes[(i + 1) * n_mach + j..][..2];
-        let cell = (low, high);
-        (
-            interpolated(cell, 0, (f, df), (g, dg), alpha, mach),
-            interpolated(cell, 1, (f, df), (g, dg), alpha, mach),
-            interpolated(cell, 2, (f, df), (g, dg), alpha, mach),
-        )
+        let [cl, cd, cm] = S::of_two(self, alpha, mach);
+        (cl, cd, cm)
     }
 }
 
-/// Coefficient `k` in a cell at position (f, g), whose derivatives by angle and Mach number are (df, dg).
+impl OfTwo<3> for Airfoil {
+    #[inline(always)]
+    fn at(&self, mut alpha: f64, mach: f64) -> [[f64; 3]; 3] {
+        if alpha.abs() > PI {
+            alpha -= TAU * (alpha / TAU).round();
+        }
+        let (i, f, df) = self.alpha.cell(alpha);
+        let (j, g, dg) = self.mach.cell(mach);
+        let n_mach = self.mach.nodes.len();
+        let low = &self.nodes[i * n_mach + j..][..2];
+        let high = &self.nodes[(i + 1) * n_mach + j..][..2];
+        [
+            interpolated((low, high), 0, (f, df), (g, dg)),
+            interpolated((low, high), 1, (f, df), (g, dg)),
+            interpolated((low, high), 2, (f, df), (g, dg)),
+        ]
+    }
+}
+
+/// Coefficient `k` in a cell at position (f, g), whose derivatives by angle and Mach number are (df, dg): its value and two
+/// slopes.
 #[inline(always)]
-fn interpolated<S: Real>(
+fn interpolated(
     (low, high): (&[[f64; 3]], &[[f64; 3]]),
     k: usize,
     (f, df): (f64, f64),
     (g, dg): (f64, f64),
-    alpha: S,
-    mach: S,
-) -> S {
+) -> [f64; 3] {
     let (v00, v01, v10, v11) = (low[0][k], low[1][k], high[0][k], high[1][k]);
     let at_low = v00 + g * (v01 - v00);
     let at_high = v10 + g * (v11 - v10);
     let by_mach = (v01 - v00) + f * ((v11 - v10) - (v01 - v00));
-    // the value and its two slopes: exact derivatives at the cost of two products
-    alpha.chain(at_low + f * (at_high - at_low), df * (at_high - at_low)) + mach.chain(0.0, dg * by_mach)
+    [at_low + f * (at_high - at_low), df * (at_high - at_low), dg * by_mach]
 }
 
 #[cfg(test)]

@@ -19,7 +19,10 @@ _KNOT = 1852.0 / 3600.0
 def fixed_parts(spec: AircraftFile) -> dict[str, Any]:
     """Everything that does not depend on the loading, tables read and checked for coverage."""
     return {
-        "blade": blade_data(spec.rotor, structure_data(spec.rotor)),
+        "blade": {
+            **blade_data(spec.rotor, structure_data(spec.rotor)),
+            "rigid": not spec.rotor.blade.flexible,
+        },
         "airfoil": _airfoil(spec.rotor),
         "lag_damper": lag_damper_data(spec.rotor),
         "fuselage": _fuselage(spec),

@@ -34,6 +34,10 @@ class SourceRow(NamedTuple):
     note: str
 
 
+HINGE_MODES = {"hinged": 2, "flapping": 1, "clamped": 0}
+"""Modes of a rigid blade: turns about its hinges."""
+
+
 class Settings(NamedTuple):
     """Discretisation: blade modes, finite elements, quadrature points of each, azimuth step, pitch of the mode problem [rad]."""
 
@@ -131,8 +135,29 @@ class Aircraft:
         """Modes, elements, azimuth step and reference pitch."""
         return self._discretisation
 
+    @property
+    def flexible(self) -> bool:
+        """Whether the blades bend and twist."""
+        return self._spec.rotor.blade.flexible
+
+    def with_rigid_blades(self) -> Aircraft:
+        """This aircraft with blades that move about their flap and lag hinges alone.
+
+        Raises InputError where the blades are clamped: rigid they would not flap.
+        """
+        rotor = self._spec.rotor
+        if rotor.blade.root == "clamped":
+            raise InputError.of("blades", "rigid", f"the blades of {self.name} are clamped: they flap by bending")
+        blade = rotor.blade.model_copy(update={"flexible": False})
+        spec = self._spec.model_copy(update={"rotor": rotor.model_copy(update={"blade": blade})})
+        return Aircraft(spec, self._path, self._loading_name)
+
     def discretised(self, **given: Any) -> Aircraft:
         """This aircraft with another `[discretisation]`: keys of the file, checked as there."""
+        if "n_modes" in given and not self.flexible:
+            raise InputError.of(
+                "n_modes", given["n_modes"], "rigid blades have the modes of their hinges: lag and flap"
+            )
         chosen = checked_discretisation(dict(self._spec.discretisation), given)
         return Aircraft(self._spec.model_copy(update={"discretisation": chosen}), self._path, self._loading_name)
 
@@ -256,4 +281,5 @@ def _settings(spec: AircraftFile, path: Path) -> Settings:
     from ..inflow import check_azimuth_step
 
     check_azimuth_step(step, int(spec.rotor.n_blades), f"{path}: discretisation.azimuth_step")
-    return Settings(given.n_modes, given.n_elements, given.n_gauss, step, pitch)
+    n_modes = given.n_modes if spec.rotor.blade.flexible else HINGE_MODES[spec.rotor.blade.root]
+    return Settings(n_modes, given.n_elements, given.n_gauss, step, pitch)

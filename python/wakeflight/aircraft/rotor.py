@@ -16,13 +16,11 @@ from . import tables
 from .core_data import blade_data, structure_data
 from .core_data import lag_damper_data as damper
 from .load import SHIPPED, find, load_aircraft, parsed, validated
-from .model import Aircraft, Settings, checked_discretisation
+from .model import HINGE_MODES, Aircraft, Settings, checked_discretisation
 from .rotor_file import UNSTATED, RotorFile, RotorGroup, written_out
 
 FINEST_DEFAULT_STEPS = 36
 """Fewest steps in a revolution where a file names no azimuth step (10 deg)."""
-
-_HINGE_MODES = {"hinged": 2, "flapping": 1, "clamped": 0}
 
 
 @dataclass(frozen=True)
@@ -84,7 +82,7 @@ class Rotor:
     def with_rigid_blades(self) -> Rotor:
         """The same rotor with blades that move about their hinges alone, or not at all where they are clamped."""
         blade = {**self.data["blade"], "rigid": True}
-        settings = self.discretisation._replace(n_modes=_HINGE_MODES[blade["root"]])
+        settings = self.discretisation._replace(n_modes=HINGE_MODES[blade["root"]])
         return replace(self, data={**self.data, "blade": blade}, discretisation=settings)
 
     def with_reference_pitch(self, pitch: float) -> Rotor:
@@ -226,7 +224,7 @@ def _settings(spec: RotorFile, path: Path) -> Settings:
     if given.reference_pitch is not None:
         pitch = quantity(given.reference_pitch, "rad", f"{path}: discretisation.reference_pitch")
     blade = spec.rotor.blade
-    n_modes = given.n_modes if blade.flexible else _HINGE_MODES[blade.root]
+    n_modes = given.n_modes if blade.flexible else HINGE_MODES[blade.root]
     return Settings(n_modes, given.n_elements, given.n_gauss, step, pitch)
 
 

@@ -4,7 +4,7 @@
 """What an aircraft file may hold: components, their numbers and the allowed range of each.
 
 Presence is meaning: a group that is not in the file is a part the aircraft does not have. Only the
-discretisation has defaults; every other missing number is an error.
+discretisation and `flexible` have defaults; every other missing number is an error.
 """
 
 from __future__ import annotations
@@ -73,7 +73,7 @@ class Loading(Group):
 
 
 class Blade(Group):
-    """Blade: `root` hinged (flap and lag hinge at `root_station`) or clamped there."""
+    """Blade: `root` hinged (flap and lag hinge at `root_station`) or clamped there; without `flexible` it turns rigidly."""
 
     root: Literal["hinged", "clamped"]
     root_station: scalar("m", above=0.0, high=20.0)
@@ -88,6 +88,15 @@ class Blade(Group):
     structural_damping_ratio: scalar("1", low=0.0, high=0.5)
     delta3: scalar("rad", low=-80 * _DEG, high=80 * _DEG)
     precone: scalar("rad", low=-20 * _DEG, high=20 * _DEG)
+    flexible: bool = True
+
+    @model_validator(mode="after")
+    def _moves(self) -> Blade:
+        if self.root == "clamped" and not self.flexible:
+            raise ValueError(
+                "flexible = false: a rigid blade that is clamped does not move; in flight blades must flap"
+            )
+        return self
 
 
 class Airfoil(Group):

@@ -10,8 +10,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError
-from ..inflow import DynamicInflow, InflowModel
+from ..inflow import DynamicInflow
 from ..progress import Progress, Silent
+from .annular import check_axial, on_annuli
 from .condition import (
     StandCondition,
     air,
@@ -22,9 +23,9 @@ from .condition import (
     rotor_speed,
     within,
 )
-from .model import StandModel, stand_inflow
+from .model import StandInflow, StandModel, stand_inflow
 from .results import Tunnel
-from .solve import first_guess, solution
+from .solve import first_guess, solution, with_dynamic_inflow
 
 if TYPE_CHECKING:
     from ..aircraft import Aircraft, Rotor
@@ -37,7 +38,7 @@ def tunnel(
     collective: Any = None,
     speed: Any = "0 kt",
     shaft_angle: Any = "0 deg",
-    inflow: str | InflowModel = "time-marching",
+    inflow: str | StandInflow = "time-marching",
     *,
     climb: Any = "0 m/s",
     roll_rate: Any = "0 deg/s",
@@ -76,8 +77,9 @@ def tunnel(
     collective : blade pitch at `collective_at`; default 8 deg unless thrust, ct or torque is given.
     speed, shaft_angle : wind from the front, and tilt of the shaft, positive aft (disk met from below, as in descent);
         +90 deg is axial descent, -90 deg axial climb.
-    inflow : `time-marching`, `relaxation`, `dynamic`, or a configured model (which is then used as it is). A name takes the
-        defaults of the kind of condition (`wakeflight.tunnel.model.REGIME_OPTIONS`).
+    inflow : `time-marching`, `relaxation`, `dynamic`, `annular` (hover and axial climb: blade elements and momentum ring by
+        ring, a baseline), or a configured model (which is then used as it is). A name takes the defaults of the kind of
+        condition (`wakeflight.tunnel.model.REGIME_OPTIONS`).
     climb : speed of the hub up the shaft, on top of the wind; negative is descent.
     roll_rate, pitch_rate : steady rates of the stand, right side down and nose up positive.
     collective_at : `root` (the twist of the file is added to the collective) or a radius such as "0.75 R" (the
@@ -118,11 +120,14 @@ def tunnel(
     thin = bool(prandtl_glauert) if blade_model == "weissinger" else None
     simple, wake = _compiled(rotor, condition, model, n_harmonics, thin)
     progress.phase("rotor on the stand", None)
-    found = solution(simple, wake, options, progress)
+    if wake is not None and wake.is_annular:
+        found = on_annuli(wake, with_dynamic_inflow(simple), progress)
+    else:
+        found = solution(simple, wake, options, progress)
     return Tunnel(found, time.perf_counter() - started)
 
 
-def check(aircraft: str | Path | Aircraft | Rotor, inflow: str | InflowModel, **given: Any) -> None:
+def check(aircraft: str | Path | Aircraft | Rotor, inflow: str | StandInflow, **given: Any) -> None:
     """Refuse what `tunnel` would refuse of the same arguments; nothing is started."""
     apart = ("aircraft", "inflow", "progress")
     defaults = {name: each.default for name, each in signature(tunnel).parameters.items() if name not in apart}
@@ -134,7 +139,7 @@ def check(aircraft: str | Path | Aircraft | Rotor, inflow: str | InflowModel, **
 
 def configured(
     aircraft: str | Path | Aircraft | Rotor, inflow: str, options: dict[str, Any], condition: dict[str, Any]
-) -> InflowModel:
+) -> StandInflow:
     """The model that `tunnel` would take for the name `inflow` in a condition, with `options` changed.
 
     condition: speed, shaft_angle, climb, omega as `tunnel` takes them.
@@ -152,7 +157,7 @@ def configured(
     return replace(model, **options)
 
 
-def _prepared(aircraft: Any, inflow: Any, given: dict[str, Any]) -> tuple[Rotor, StandCondition, InflowModel]:
+def _prepared(aircraft: Any, inflow: Any, given: dict[str, Any]) -> tuple[Rotor, StandCondition, StandInflow]:
     """Rotor, condition and inflow model, everything checked; nothing is started."""
     from ..aircraft import load_rotor
 
@@ -186,7 +191,9 @@ def _prepared(aircraft: Any, inflow: Any, given: dict[str, Any]) -> tuple[Rotor,
         raise InputError.of("blade_model", given["blade_model"], "allowed: lifting-line, weissinger")
     if not isinstance(given["prandtl_glauert"], bool):
         raise InputError.of("prandtl_glauert", given["prandtl_glauert"], "must be True or False")
-    if not isinstance(model, DynamicInflow):
+    if model.name == "annular":
+        check_axial(condition, rotor.omega * rotor.radius)
+    if model.name in ("relaxation", "time-marching"):
         model.core_options(rotor)
         if given["blade_model"] == "weissinger" and model.near_wake_angle == 0.0:
             raise InputError.of("near_wake_angle", "0 deg", "a Weissinger blade needs a near wake")
@@ -195,7 +202,7 @@ def _prepared(aircraft: Any, inflow: Any, given: dict[str, Any]) -> tuple[Rotor,
     return rotor, condition, model
 
 
-def _marching_options(revolutions: Any, averaged: Any, model: InflowModel) -> dict[str, int | None]:
+def _marching_options(revolutions: Any, averaged: Any, model: StandInflow) -> dict[str, int | None]:
     for name, value in (("revolutions", revolutions), ("averaged", averaged)):
         if value is None:
             continue
@@ -209,7 +216,7 @@ def _marching_options(revolutions: Any, averaged: Any, model: InflowModel) -> di
 
 
 def _compiled(
-    rotor: Rotor, condition: StandCondition, model: InflowModel, n_harmonics: int, thin_sections: bool | None
+    rotor: Rotor, condition: StandCondition, model: StandInflow, n_harmonics: int, thin_sections: bool | None
 ) -> tuple[StandModel, StandModel | None]:
     """The rotor with dynamic inflow, and with the free wake where that is asked for."""
     dynamic = model

@@ -11,7 +11,8 @@ import numpy as np
 
 from .. import _core
 from ..aircraft import Rotor
-from ..inflow import DynamicInflow, InflowModel, TimeMarchingWake, inflow_model
+from ..errors import InputError
+from ..inflow import MODELS, AnnularInflow, DynamicInflow, InflowModel, TimeMarchingWake, inflow_model
 from ..model import CompiledRotor
 from ..trim import resample
 from ..units import STANDARD_GRAVITY
@@ -32,8 +33,17 @@ REVOLUTIONS = {"forward": (12, 4), "hover": (24, 12), "descent": (40, 20)}
 """Revolutions marched and, of them, the last ones averaged. Axial wakes do not become periodic: they need more."""
 
 
-def stand_inflow(inflow: str | InflowModel, regime: str) -> InflowModel:
+StandInflow = InflowModel | AnnularInflow
+"""Inflow models of the stand."""
+
+
+def stand_inflow(inflow: str | StandInflow, regime: str) -> StandInflow:
     """Model from its name with the options of the regime, or the configured model as it is."""
+    if inflow == AnnularInflow.name or isinstance(inflow, AnnularInflow):
+        return inflow if isinstance(inflow, AnnularInflow) else AnnularInflow()
+    if isinstance(inflow, str) and inflow not in MODELS:
+        allowed = ", ".join([*MODELS, AnnularInflow.name])
+        raise InputError.of("inflow", inflow, f"allowed: {allowed}, or a configured model")
     model = inflow_model(inflow)
     if model is inflow or isinstance(model, DynamicInflow):
         return model
@@ -47,7 +57,7 @@ class StandModel(CompiledRotor):
 
     aircraft: Rotor
     condition: StandCondition
-    inflow: InflowModel
+    inflow: StandInflow
     core: _core.Stand
     n_harmonics: int
     thin_sections: bool | None = None
@@ -59,11 +69,11 @@ class StandModel(CompiledRotor):
         cls,
         rotor: Rotor,
         condition: StandCondition,
-        inflow: InflowModel,
+        inflow: StandInflow,
         n_harmonics: int,
         thin_sections: bool | None = None,
     ) -> StandModel:
-        """Compile; the tip loss is off with a free wake. Gravity acts down the shaft."""
+        """Compile; the tip loss of the file acts with dynamic inflow alone. Gravity acts down the shaft."""
         d = rotor.discretisation
         inflow.step(rotor)
         core = _core.Stand(
@@ -97,6 +107,16 @@ class StandModel(CompiledRotor):
     def dynamic_pressure_area(self) -> float:
         """rho pi R^2 (Omega R)^2 [N]: a force over it is its coefficient."""
         return self.condition.density * np.pi * self.rotor["radius"] ** 2 * self.tip_speed**2
+
+    @property
+    def is_dynamic(self) -> bool:
+        """Whether the inflow has states of its own: no map of it is held."""
+        return isinstance(self.inflow, DynamicInflow)
+
+    @property
+    def is_annular(self) -> bool:
+        """Whether every ring of the disk has its own momentum."""
+        return isinstance(self.inflow, AnnularInflow)
 
     @property
     def is_marching(self) -> bool:

@@ -61,7 +61,7 @@ class Tunnel:
         """Passages of the periodic solution by azimuth (n, ...); empty with a marching wake."""
         s = self.solution
         # dynamic inflow acts at the deflected blade: it is part of the solution, not of the map
-        inflow = s.inflow_map if s.wake is not None else None
+        inflow = None if self.model.is_dynamic else s.inflow_map
         return self.model.core.passages(s.problem, s.x, self.azimuth, inflow)
 
     def _by_azimuth(self, name: str) -> np.ndarray:

@@ -3,6 +3,7 @@ pub mod data;
 pub mod jacobian;
 pub mod model;
 pub mod outputs;
+pub mod rates;
 pub mod residual;
 pub mod state;
 pub mod trim;

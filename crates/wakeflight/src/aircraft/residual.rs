@@ -78,7 +78,7 @@ impl Aircraft {
         self.body_rows(t, y, y_dot, inputs, &rotor, beta_1c, f);
     }
 
-    /// The residual, with the structures of four blades at once; the same bits.
+    /// The residual, four blades at once; the same bits.
     pub fn residual_of_four(&self, t: f64, y: &[f64], y_dot: &[f64], inputs: &Inputs, f: &mut [f64]) {
         let l = &self.layout;
         let hub = self.hub_motion(y, y_dot);
@@ -86,21 +86,20 @@ impl Aircraft {
         let n = self.rotor.n_blades;
         for first in (0..n).step_by(4) {
             // fewer than four left: the last stands in for those that are not there
-            let blades = std::array::from_fn(|k| {
-                let b = (first + k).min(n - 1);
-                let psi = self.rotor.azimuth(self.rotor.omega * t, b);
-                (psi, self.modal_motion(y, y_dot, b), self.blade_pitch::<f64>(inputs, t, psi))
+            let blade = |k: usize| (first + k).min(n - 1);
+            let poses = std::array::from_fn(|k| {
+                let psi = self.rotor.azimuth(self.rotor.omega * t, blade(k));
+                (psi, self.modal_motion(y, y_dot, blade(k)), self.blade_pitch::<f64>(inputs, t, psi))
             });
-            let loads = self.rotor.four_structures(&hub, &blades);
-            for (b, ((psi, modal, control), mut blade)) in (first..n).zip(blades.iter().zip(loads)) {
-                let inflow = self.blade_inflow(y, inputs, b);
-                self.rotor.add_air_and_damper(self.air, &hub, *psi, modal, control, &inflow, &mut blade);
+            let inflow = std::array::from_fn(|k| self.blade_inflow(y, inputs, blade(k)));
+            let loads = self.rotor.four_blade_loads(self.air, &hub, &poses, &inflow);
+            for (b, blade) in (first..n).zip(&loads) {
                 let (q, s) = (l.modal(b).start, l.modal_rate(b).start);
                 for i in 0..l.n_modes {
                     f[q + i] = y_dot[q + i] - y[s + i];
                     f[s + i] = blade.modal[i];
                 }
-                rotor.add(&blade);
+                rotor.add(blade);
             }
         }
         let beta_1c = self.flap_multiblade(t, y)[0];

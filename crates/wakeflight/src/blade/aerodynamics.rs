@@ -92,37 +92,57 @@ pub fn section_loads<S: Real>(
     [cl, cd, cm]: [S; 3],
 ) -> SectionAir<S> {
     let (c, n, t) = (motion.c, motion.n, motion.t);
-    let half_rho_c = 0.5 * air.density * station.chord;
-    // lift is perpendicular to the wind, drag along it
-    let lift = cl * speed * (half_rho_c * station.lift_width);
-    let drag = cd * speed * (half_rho_c * station.width);
+    let Strengths { lift, drag, about_quarter } =
+        section_strengths(air, station, speed, omega.dot(t), [cl, cd, cm]);
     let force = c * (lift * quarter_n + drag * wind_c) + n * (drag * quarter_n - lift * wind_c);
-    // moment about the quarter chord, with the quasi-steady pitch-rate damping of thin-airfoil theory
-    let pitch_rate = omega.dot(t);
-    let pitch_damping = pitch_rate
-        * speed
-        * (-std::f64::consts::PI / 16.0 * air.density * station.chord.powi(3) * station.lift_width);
-    let about_quarter =
-        cm * speed * speed * (half_rho_c * station.chord * station.lift_width) + pitch_damping;
     let moment = t * about_quarter + c.cross(force) * S::cst(station.quarter);
 
     let circulation = cl * speed * (0.5 * station.chord);
     SectionAir { alpha, mach, speed, cl, cd, cm, circulation, force, moment }
 }
 
-/// Angle of attack, speed and coefficients of a section.
-struct SectionFlow<S> {
-    alpha: S,
+/// Lift and drag of an element over the speed [N s/m], its moment about the quarter chord [N m].
+pub(super) struct Strengths<S> {
+    pub(super) lift: S,
+    pub(super) drag: S,
+    pub(super) about_quarter: S,
+}
+
+/// Strengths of an element at `speed` [m/s] turning nose up at `pitch_rate` [rad/s]; coefficients (cl, cd, cm).
+///
+/// The moment has the quasi-steady pitch-rate damping of thin-airfoil theory.
+#[inline(always)]
+pub(super) fn section_strengths<S: Real>(
+    air: &Air,
+    station: &StationGeometry,
     speed: S,
+    pitch_rate: S,
+    [cl, cd, cm]: [S; 3],
+) -> Strengths<S> {
+    let half_rho_c = 0.5 * air.density * station.chord;
+    let lift = cl * speed * (half_rho_c * station.lift_width);
+    let drag = cd * speed * (half_rho_c * station.width);
+    let pitch_damping = pitch_rate
+        * speed
+        * (-std::f64::consts::PI / 16.0 * air.density * station.chord.powi(3) * station.lift_width);
+    let about_quarter =
+        cm * speed * speed * (half_rho_c * station.chord * station.lift_width) + pitch_damping;
+    Strengths { lift, drag, about_quarter }
+}
+
+/// Angle of attack, speed and coefficients of a section.
+pub(super) struct SectionFlow<S> {
+    alpha: S,
+    pub(super) speed: S,
     mach: S,
-    cl: S,
-    cd: S,
-    cm: S,
+    pub(super) cl: S,
+    pub(super) cd: S,
+    pub(super) cm: S,
 }
 
 /// Flow from the wind along the chord and normal to it at the quarter and the three-quarter chord [m/s].
 #[inline(always)]
-fn section_flow<S: Real>(
+pub(super) fn section_flow<S: Real>(
     airfoil: &Airfoil,
     air: &Air,
     wind_c: S,

@@ -120,19 +120,19 @@ pub struct BladeEnvironment<'a> {
 }
 
 /// Rigid motion of the blade axes at one instant.
-struct Carrier<S> {
-    velocity: Vec3<S, BladeAxes>,
-    acceleration: Vec3<S, BladeAxes>,
-    omega: Vec3<S, BladeAxes>,
-    omega_dot: Vec3<S, BladeAxes>,
+pub(super) struct Carrier<S> {
+    pub(super) velocity: Vec3<S, BladeAxes>,
+    pub(super) acceleration: Vec3<S, BladeAxes>,
+    pub(super) omega: Vec3<S, BladeAxes>,
+    pub(super) omega_dot: Vec3<S, BladeAxes>,
     to_blade: [[S; 3]; 3],
-    up: Vec3<S, BladeAxes>,
+    pub(super) up: Vec3<S, BladeAxes>,
 }
 
 impl<S: Real> Carrier<S> {
     /// Blade axes at azimuth `psi`, turned up by `precone`, on a hub in motion `hub`.
     #[inline(always)]
-    fn new(hub: &HubMotion<S>, psi: S, precone: f64, rotor_speed: f64) -> Self {
+    pub(super) fn new(hub: &HubMotion<S>, psi: S, precone: f64, rotor_speed: f64) -> Self {
         let (s, c) = psi.sin_cos();
         let (sp, cp) = precone.sin_cos();
         let zero = S::zero();
@@ -148,7 +148,7 @@ impl<S: Real> Carrier<S> {
         }
     }
     #[inline(always)]
-    fn to_hub(&self, v: Vec3<S, BladeAxes>) -> Vec3<S, Hub> {
+    pub(super) fn to_hub(&self, v: Vec3<S, BladeAxes>) -> Vec3<S, Hub> {
         let m = &self.to_blade;
         Vec3::new(
             m[0][0] * v.x + m[1][0] * v.y + m[2][0] * v.z,
@@ -181,18 +181,23 @@ fn inertia_times<S: Real>(
 }
 
 /// Force and moment about the hub, blade axes.
-struct Sum<S> {
+pub(super) struct Sum<S> {
     force: Vec3<S, BladeAxes>,
     moment: Vec3<S, BladeAxes>,
 }
 
 impl<S: Real> Sum<S> {
     #[inline(always)]
-    fn new() -> Self {
+    pub(super) fn new() -> Self {
         Self { force: Vec3::zero(), moment: Vec3::zero() }
     }
     #[inline(always)]
-    fn add(&mut self, position: Vec3<S, BladeAxes>, force: Vec3<S, BladeAxes>, moment: Vec3<S, BladeAxes>) {
+    pub(super) fn add(
+        &mut self,
+        position: Vec3<S, BladeAxes>,
+        force: Vec3<S, BladeAxes>,
+        moment: Vec3<S, BladeAxes>,
+    ) {
         self.force += force;
         self.moment += position.cross(force) + moment;
     }
@@ -228,7 +233,9 @@ impl Blade {
         control: &PitchMotion<S>,
     ) -> BladeLoads<S> {
         let mut loads = self.inertia(rotor_speed, hub, psi, modal, control);
-        self.add_strain(modal, control, &mut loads.modal);
+        if self.rigid.is_none() {
+            self.add_strain(modal, control, &mut loads.modal);
+        }
         self.add_root_loads(modal, &mut loads.modal);
         loads
     }
@@ -247,10 +254,18 @@ impl Blade {
     ) {
         let carrier = Carrier::new(hub, psi, self.precone, environment.rotor_speed);
         let mut aero = Sum::new();
-        for j in 0..self.stations.len() {
-            let (motion, air) = self.station_air(environment, &carrier, modal, control, inflow, j);
-            self.project(&self.stations[j].shapes, &motion, air.force, air.moment, &mut loads.modal);
-            aero.add(motion.position, air.force, air.moment);
+        // numbers with derivatives go station by station: the same loads, half the code to compile
+        let done = if S::PLAIN {
+            self.add_rigid_air(environment, &carrier, modal, control, inflow, &mut loads.modal, &mut aero)
+        } else {
+            false
+        };
+        if !done {
+            for j in 0..self.stations.len() {
+                let (motion, air) = self.station_air(environment, &carrier, modal, control, inflow, j);
+                self.project(&self.stations[j].shapes, &motion, air.force, air.moment, &mut loads.modal);
+                aero.add(motion.position, air.force, air.moment);
+            }
         }
         (loads.aero_force, loads.aero_moment) = (carrier.to_hub(aero.force), carrier.to_hub(aero.moment));
         loads.force += loads.aero_force;
@@ -287,6 +302,9 @@ impl Blade {
         control: &PitchMotion<S>,
         work: &mut [S; MAX_MODES],
     ) -> Sum<S> {
+        if let Some(body) = &self.rigid {
+            return self.rigid_inertia(body, carrier, modal, control, work);
+        }
         let mut sum = Sum::new();
         for point in &self.structure {
             let (motion, force, moment) = self.inertial_loads(point, carrier, modal, control);
@@ -445,7 +463,7 @@ impl Blade {
     }
 
     #[inline(always)]
-    fn project<S: Real>(
+    pub(super) fn project<S: Real>(
         &self,
         shapes: &super::kinematics::StationShapes,
         motion: &SectionMotion<S>,

@@ -11,6 +11,7 @@ pub mod loads;
 pub mod model;
 pub mod modes;
 pub mod quadrature;
+pub mod rigid;
 pub mod section;
 pub mod strain;
 pub mod thin_section;

@@ -6,6 +6,7 @@ use super::error::BladeError;
 use super::kinematics::StationShapes;
 use super::modes::BladeModes;
 use super::quadrature::gauss_points;
+use super::rigid::RigidBlade;
 use super::section::{BladeProperties, Root};
 use super::strain::Stiffness;
 
@@ -63,6 +64,8 @@ pub struct Blade {
     pub flap_mode: usize,
     /// Structure.
     pub structure: Vec<StructuralPoint>,
+    /// The structure as one body, where the blade does not bend.
+    pub rigid: Option<RigidBlade>,
     /// Air.
     pub stations: Vec<AeroStation>,
     /// Shapes at the hinge or clamp, and at the tip.
@@ -115,9 +118,11 @@ impl Blade {
             root_twist[i] = at_root.phi[i];
         }
         let flap_mode = (0..d.n_modes).find(|&i| modes.shares[i].flap > 0.5).unwrap_or(0);
+        let rigid = properties.rigid.then(|| RigidBlade::of(&structure, &stations, properties.root_station));
         Ok(Self {
             n_modes: d.n_modes,
             flap_mode,
+            rigid,
             mass: structure.iter().map(|p| p.mass).sum(),
             structure,
             stations,

@@ -6,8 +6,8 @@
 //! is halved.
 
 use super::blocks::{Factor, Singular};
+use super::linearised::Linearised;
 use super::radau::{Radau, STAGES};
-use crate::aircraft::jacobian::Slopes;
 use crate::aircraft::model::{Aircraft, Inputs};
 use crate::aircraft::state::Layout;
 use nalgebra::Complex;
@@ -67,8 +67,7 @@ pub struct FixedStep {
     y_dot: Vec<f64>,
     /// Whether slopes and rate belong to the present state.
     prepared: bool,
-    slopes: Slopes,
-    mass: Factor<f64>,
+    linear: Linearised,
     real: Factor<f64>,
     complex: Factor<Complex<f64>>,
     /// Step that the factors belong to [s].
@@ -88,7 +87,7 @@ impl FixedStep {
     /// At state `y` and time `t` [s]; `atol` is the absolute tolerance of every state.
     pub fn new(layout: Layout, t: f64, y: &[f64], rtol: f64, atol: &[f64], newton_share: f64) -> Self {
         let n = layout.len();
-        let slopes = Slopes::new(layout);
+        let linear = Linearised::new(layout);
         let zeros = || std::array::from_fn(|_| vec![0.0; n]);
         Self {
             method: Radau::default(),
@@ -99,10 +98,9 @@ impl FixedStep {
             y: y.to_vec(),
             y_dot: vec![0.0; n],
             prepared: false,
-            mass: Factor::new(&slopes),
-            real: Factor::new(&slopes),
-            complex: Factor::new(&slopes),
-            slopes,
+            real: Factor::new(&linear.slopes),
+            complex: Factor::new(&linear.slopes),
+            linear,
             factored: None,
             rates: zeros(),
             last_step: None,
@@ -134,20 +132,12 @@ impl FixedStep {
 
     /// Linearises at the present state and finds the rate that satisfies F = 0 with `inputs` from now on.
     pub fn prepare(&mut self, aircraft: &Aircraft, inputs: &Inputs) -> Result<(), StepFailure> {
-        aircraft.slopes(self.t, &self.y, &self.y_dot, inputs, &mut self.slopes);
+        let solved = self.linear.consistent(aircraft, self.t, &self.y, &mut self.y_dot, inputs);
         self.counters.jacobians += 1;
-        self.factored = None;
-        // F is linear in y_dot and the matrix is that of this state: one correction is exact
-        let f = &mut self.f[0];
-        aircraft.residual_of_four(self.t, &self.y, &self.y_dot, inputs, f);
         self.counters.residual_evaluations += 1;
-        if self.mass.mass(&self.slopes).is_err() {
+        self.factored = None;
+        if solved.is_err() {
             return Err(self.failure(aircraft, inputs, "the mass matrix is singular or not finite"));
-        }
-        self.right_real.copy_from_slice(&self.f[0]);
-        self.mass.solve(&self.slopes, &mut self.right_real);
-        for (rate, correction) in self.y_dot.iter_mut().zip(&self.right_real) {
-            *rate -= correction;
         }
         if !self.y_dot.iter().all(|v| v.is_finite()) {
             return Err(self.failure(aircraft, inputs, "a rate of state is not finite"));
@@ -227,8 +217,8 @@ impl FixedStep {
     fn factor(&mut self, h: f64) -> Result<(), Singular> {
         if self.factored != Some(h) {
             let [re, im] = self.method.complex;
-            self.real.newton(&self.slopes, self.method.real / h)?;
-            self.complex.newton(&self.slopes, Complex::new(re / h, im / h))?;
+            self.real.newton(&self.linear.slopes, self.method.real / h)?;
+            self.complex.newton(&self.linear.slopes, Complex::new(re / h, im / h))?;
             self.factored = Some(h);
             self.counters.factorisations += 1;
         }
@@ -279,8 +269,8 @@ impl FixedStep {
             self.right_real[i] = r[0];
             self.right_complex[i] = Complex::new(r[1], r[2]);
         }
-        self.real.solve(&self.slopes, &mut self.right_real);
-        self.complex.solve(&self.slopes, &mut self.right_complex);
+        self.real.solve(&self.linear.slopes, &mut self.right_real);
+        self.complex.solve(&self.linear.slopes, &mut self.right_complex);
         let mut sum = 0.0;
         for i in 0..n {
             let dw = [self.right_real[i], self.right_complex[i].re, self.right_complex[i].im];
@@ -339,7 +329,7 @@ impl Aircraft {
     ///
     /// Fails where the mass matrix is singular, which no blade with mass has.
     pub fn consistent_rate(&self, t: f64, y: &[f64], inputs: &Inputs) -> Result<Vec<f64>, Singular> {
-        let mut slopes = Slopes::new(self.layout);
+        let mut slopes = crate::aircraft::jacobian::Slopes::new(self.layout);
         self.mass_slopes(t, y, inputs, &mut slopes);
         let mut mass = Factor::new(&slopes);
         mass.mass(&slopes)?;

@@ -1,4 +1,6 @@
 //! Fixed-step integration of the same F(y_dot, y, u; t) = 0: Radau IIA of order five, blades eliminated before the body.
 pub mod blocks;
+pub mod explicit;
 pub mod fixed;
+pub mod linearised;
 pub mod radau;

@@ -32,7 +32,7 @@ pub use x86::four_at_once;
 #[cfg(target_arch = "x86_64")]
 mod x86 {
     use super::{Four, FourTask};
-    use crate::numerics::scalar::Real;
+    use crate::numerics::scalar::{OfTwo, Real};
     use crate::numerics::wide::Known;
     use pulp::bytemuck::cast;
     use pulp::x86::V3;
@@ -72,6 +72,8 @@ mod x86 {
     }
 
     impl Real for Quartet {
+        const PLAIN: bool = true;
+
         #[inline(always)]
         fn cst(value: f64) -> Self {
             Self(V3::known().splat_f64s(value))
@@ -95,6 +97,22 @@ mod x86 {
             let v = self.values();
             let (a, b, c, d) = (v[0].sin_cos(), v[1].sin_cos(), v[2].sin_cos(), v[3].sin_cos());
             (Self::of([a.0, b.0, c.0, d.0]), Self::of([a.1, b.1, c.1, d.1]))
+        }
+        #[inline(always)]
+        fn atan2(self, x: Self) -> Self {
+            let (y, x) = (self.values(), x.values());
+            Self::of([y[0].atan2(x[0]), y[1].atan2(x[1]), y[2].atan2(x[2]), y[3].atan2(x[3])])
+        }
+        #[inline(always)]
+        fn of_two<const K: usize, L: OfTwo<K>>(law: &L, a: Self, b: Self) -> [Self; K] {
+            let (a, b) = (a.values(), b.values());
+            let found = [law.at(a[0], b[0]), law.at(a[1], b[1]), law.at(a[2], b[2]), law.at(a[3], b[3])];
+            let mut out = [Self::cst(0.0); K];
+            for k in 0..K {
+                // the sum with zero is that of the chain rule: the bits of each alone
+                out[k] = Self::of([found[0][k][0], found[1][k][0], found[2][k][0], found[3][k][0]]) + 0.0;
+            }
+            out
         }
     }
 

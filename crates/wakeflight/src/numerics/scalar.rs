@@ -3,6 +3,12 @@
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
+/// `K` functions of two numbers.
+pub trait OfTwo<const K: usize> {
+    /// Value and derivatives by the first and the second number, of each function.
+    fn at(&self, a: f64, b: f64) -> [[f64; 3]; K];
+}
+
 /// A real number, possibly with derivatives. Branches look at `re()` only.
 pub trait Real:
     Copy
@@ -23,6 +29,9 @@ pub trait Real:
     + Mul<f64, Output = Self>
     + Div<f64, Output = Self>
 {
+    /// Whether it carries no derivatives: worth a path of its own through equations asked for again and again.
+    const PLAIN: bool = false;
+
     /// A constant: derivatives zero.
     fn cst(value: f64) -> Self;
     /// The value without derivatives.
@@ -69,6 +78,17 @@ pub trait Real:
         // d = (x dy - y dx)/(x^2 + y^2): built from the two chain rules
         self.chain(yr.atan2(xr), xr / squared) + x.chain(0.0, -yr / squared)
     }
+    /// Functions of `a` and `b` (chain rule).
+    #[inline(always)]
+    fn of_two<const K: usize, L: OfTwo<K>>(law: &L, a: Self, b: Self) -> [Self; K] {
+        let found = law.at(a.re(), b.re());
+        let mut out = [Self::zero(); K];
+        for k in 0..K {
+            let [value, by_a, by_b] = found[k];
+            out[k] = a.chain(value, by_a) + b.chain(0.0, by_b);
+        }
+        out
+    }
     /// Tangent.
     #[inline(always)]
     fn tan(self) -> Self {
@@ -105,6 +125,8 @@ pub trait Real:
 }
 
 impl Real for f64 {
+    const PLAIN: bool = true;
+
     #[inline(always)]
     fn cst(value: f64) -> Self {
         value

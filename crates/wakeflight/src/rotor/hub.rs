@@ -15,18 +15,53 @@ use crate::numerics::four::{Four, FourTask, four_at_once};
 use crate::numerics::frames::{Body, Hub, Rotation, Vec3, rot_hb};
 use crate::numerics::scalar::Real;
 
-/// Loads of four blades but for air and damper.
-struct Structures<'a> {
-    rotor: &'a Rotor,
-    hub: &'a HubMotion<f64>,
-    blades: &'a [(f64, ModalMotion<f64>, PitchMotion<f64>); 4],
+/// Azimuth, modal motion and pitch of a blade.
+pub type BladePose = (f64, ModalMotion<f64>, PitchMotion<f64>);
+
+/// Most stations whose air is found for four blades at once; more are done blade by blade.
+const MOST_STATIONS: usize = 64;
+
+/// Air of four blades.
+#[derive(Clone, Copy)]
+enum FourInflow<'a> {
+    /// None, or left to each blade by itself.
+    Without,
+    /// lambda_0, lambda_s, lambda_c.
+    Disk([f64; 3]),
+    /// One value per station, blade by blade.
+    Stations([&'a [f64]; 4]),
 }
 
-impl FourTask for Structures<'_> {
+impl<'a> FourInflow<'a> {
+    fn of(inflow: &[BladeInflow<'a, f64>; 4]) -> Self {
+        match inflow {
+            [BladeInflow::Disk(states), ..] => Self::Disk(*states),
+            [
+                BladeInflow::Stations(a),
+                BladeInflow::Stations(b),
+                BladeInflow::Stations(c),
+                BladeInflow::Stations(d),
+            ] if a.len() <= MOST_STATIONS => Self::Stations([a, b, c, d]),
+            _ => Self::Without,
+        }
+    }
+}
+
+/// Loads of four blades but for their dampers.
+struct FourBlades<'a> {
+    rotor: &'a Rotor,
+    environment: BladeEnvironment<'a>,
+    hub: &'a HubMotion<f64>,
+    blades: &'a [BladePose; 4],
+    inflow: FourInflow<'a>,
+}
+
+impl FourTask for FourBlades<'_> {
     type Output = [BladeLoads<f64>; 4];
     #[inline(always)]
     fn run<S: Four>(self) -> Self::Output {
-        let (b, n) = (self.blades, self.rotor.blade.n_modes);
+        let (b, blade) = (self.blades, &self.rotor.blade);
+        let n = blade.n_modes;
         let zero = [S::zero(); MAX_MODES];
         let mut modal = ModalMotion { q: zero, q_dot: zero, q_ddot: zero };
         for i in 0..n {
@@ -40,22 +75,55 @@ impl FourTask for Structures<'_> {
             theta_ddot: S::of([b[0].2.theta_ddot, b[1].2.theta_ddot, b[2].2.theta_ddot, b[3].2.theta_ddot]),
         };
         let psi = S::of([b[0].0, b[1].0, b[2].0, b[3].0]);
-        let four =
-            self.rotor.blade.structure_loads(self.rotor.omega, &self.hub.constant(), psi, &modal, &control);
-        let mut loads = [BladeLoads::zero(); 4];
-        for i in 0..n {
-            for (l, v) in loads.iter_mut().zip(four.modal[i].values()) {
-                l.modal[i] = v;
+        let hub = self.hub.constant();
+        let mut stations = [S::zero(); MOST_STATIONS];
+        let inflow = match self.inflow {
+            FourInflow::Without => BladeInflow::Vacuum,
+            FourInflow::Disk([mean, sine, cosine]) => {
+                BladeInflow::Disk([S::cst(mean), S::cst(sine), S::cst(cosine)])
             }
-        }
-        let (f, m) = (four.force, four.moment);
-        let parts = [f.x.values(), f.y.values(), f.z.values(), m.x.values(), m.y.values(), m.z.values()];
-        for (k, l) in loads.iter_mut().enumerate() {
-            l.force = Vec3::new(parts[0][k], parts[1][k], parts[2][k]);
-            l.moment = Vec3::new(parts[3][k], parts[4][k], parts[5][k]);
-        }
-        loads
+            FourInflow::Stations([a, b, c, d]) => {
+                for j in 0..a.len() {
+                    stations[j] = S::of([a[j], b[j], c[j], d[j]]);
+                }
+                BladeInflow::Variable(&stations[..a.len()])
+            }
+        };
+        split(&blade.loads(&self.environment, &hub, psi, &modal, &control, &inflow), n)
     }
+}
+
+/// Four vectors side by side, one by one.
+#[inline(always)]
+fn apart<S: Four>(v: &Vec3<S, Hub>) -> [Vec3<f64, Hub>; 4] {
+    let (x, y, z) = (v.x.values(), v.y.values(), v.z.values());
+    [
+        Vec3::new(x[0], y[0], z[0]),
+        Vec3::new(x[1], y[1], z[1]),
+        Vec3::new(x[2], y[2], z[2]),
+        Vec3::new(x[3], y[3], z[3]),
+    ]
+}
+
+/// Loads of four blades side by side, one by one.
+#[inline(always)]
+fn split<S: Four>(four: &BladeLoads<S>, n_modes: usize) -> [BladeLoads<f64>; 4] {
+    let mut loads = [BladeLoads::zero(); 4];
+    for i in 0..n_modes {
+        let values = four.modal[i].values();
+        for k in 0..4 {
+            loads[k].modal[i] = values[k];
+        }
+    }
+    let (force, moment) = (apart(&four.force), apart(&four.moment));
+    let (aero_force, aero_moment) = (apart(&four.aero_force), apart(&four.aero_moment));
+    for k in 0..4 {
+        loads[k].force = force[k];
+        loads[k].moment = moment[k];
+        loads[k].aero_force = aero_force[k];
+        loads[k].aero_moment = aero_moment[k];
+    }
+    loads
 }
 
 /// Rotor of equal blades.
@@ -163,35 +231,31 @@ impl Rotor {
         loads
     }
 
-    /// Everything but the air and the damper, for four blades: (azimuth, modal motion, pitch) of each.
-    pub fn four_structures(
-        &self,
-        hub: &HubMotion<f64>,
-        blades: &[(f64, ModalMotion<f64>, PitchMotion<f64>); 4],
-    ) -> [BladeLoads<f64>; 4] {
-        four_at_once(Structures { rotor: self, hub, blades }).unwrap_or_else(|task| {
-            task.blades.map(|(psi, modal, control)| {
-                self.blade.structure_loads(self.omega, hub, psi, &modal, &control)
-            })
-        })
-    }
-
-    /// Adds air and damper to the structure's loads.
-    #[allow(clippy::too_many_arguments, reason = "the physical inputs of one blade")]
-    pub fn add_air_and_damper(
+    /// Loads of four blades with their dampers, each with its inflow: the bits of `blade_loads`.
+    pub fn four_blade_loads(
         &self,
         air: Air,
         hub: &HubMotion<f64>,
-        psi: f64,
-        modal: &ModalMotion<f64>,
-        control: &PitchMotion<f64>,
-        inflow: &BladeInflow<f64>,
-        loads: &mut BladeLoads<f64>,
-    ) {
-        if !matches!(inflow, BladeInflow::Vacuum) {
-            self.blade.add_air_loads(&self.environment(air), hub, psi, modal, control, inflow, loads);
+        blades: &[BladePose; 4],
+        inflow: &[BladeInflow<f64>; 4],
+    ) -> [BladeLoads<f64>; 4] {
+        let environment = self.environment(air);
+        let together = FourInflow::of(inflow);
+        let task = FourBlades { rotor: self, environment, hub, blades, inflow: together };
+        let Ok(mut loads) = four_at_once(task) else {
+            return std::array::from_fn(|k| {
+                let (psi, modal, control) = &blades[k];
+                self.blade_loads(air, hub, *psi, modal, control, &inflow[k])
+            });
+        };
+        for ((loads, (psi, modal, control)), inflow) in loads.iter_mut().zip(blades).zip(inflow) {
+            let missing = matches!(together, FourInflow::Without) && !matches!(inflow, BladeInflow::Vacuum);
+            if missing {
+                self.blade.add_air_loads(&environment, hub, *psi, modal, control, inflow, loads);
+            }
+            self.add_damper(modal, control, &mut loads.modal);
         }
-        self.add_damper(modal, control, &mut loads.modal);
+        loads
     }
 
     /// Inertia and gravity of a blade alone: all that depends on accelerations.

@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""Blade elements on annular momentum: every ring of the disk for itself, in hover and axial climb [leishman2006]."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..errors import InputError, NumericalFailure
+from ..progress import Progress, Silent
+from .condition import StandCondition
+from .model import StandModel
+from .solve import Solution, dynamic_map, largest_change, solve_equations
+
+REST = 1e-10
+"""Change of inflow, pitch controls and blade harmonics between passes at which the two agree."""
+MAX_PASSES = 100
+BISECTIONS = 60
+
+
+def check_axial(condition: StandCondition, tip_speed: float) -> None:
+    """Refuse what rings cannot have: a wind across the shaft, descent, a stand that turns."""
+    across, down = condition.mu(tip_speed), condition.mu_z(tip_speed)
+    if across > 1e-6 or down > 1e-6 or any(condition.rates):
+        what = f"mu = {across:.4g}, mu_z = {down:.4g} (descent +)" if not any(condition.rates) else "a stand that turns"
+        raise InputError.of("inflow", "annular", f"holds in hover and axial climb on a stand at rest, not with {what}")
+
+
+def on_annuli(model: StandModel, start: Solution, progress: Progress | Silent) -> Solution:
+    """Blade motion and the inflow of the rings in turn until both rest, from the solution with dynamic inflow."""
+    inflow_map = dynamic_map(start.model, start.problem, start.x, model.steps_per_revolution)
+    x = np.delete(start.x, slice(3, 6))
+    for turn in range(MAX_PASSES):
+        problem = model.problem(inflow_map)
+        before, x = x, solve_equations(model, problem, x)
+        rings = inflow_of_rings(model, problem, x)
+        change = float(np.abs(rings - inflow_map[0]).max())
+        inflow_map = np.tile(rings, (model.steps_per_revolution, 1))
+        if turn > 0 and max(change, largest_change(model, problem, before, x)) < REST:
+            break
+        progress.advance(1, f"inflow change {change:.1e}")
+    else:
+        raise NumericalFailure(f"annular inflow: blades and rings do not agree, inflow still changes by {change:.1e}")
+    problem = model.problem(inflow_map)
+    x = solve_equations(model, problem, x)
+    psi = 2 * np.pi * np.arange(model.steps_per_revolution) / model.steps_per_revolution
+    circulation = model.core.passages(problem, x, psi, inflow_map)["circulation"]
+    return Solution(model, problem, x, inflow_map, circulation)
+
+
+def inflow_of_rings(model: StandModel, problem, x: np.ndarray) -> np.ndarray:
+    """Induced inflow lambda (n_stations,) at which each ring carries the lift of its blade elements.
+
+    N_b Omega Gamma = 4 pi F lambda |lambda + lambda_c| (Omega R)^2, Gamma the mean circulation over the revolution at the
+    present motion, lambda_c the climb; drag does not push the air. F = 2/pi acos(exp(-N_b (1 - r)/(2 |lambda + lambda_c|)))
+    (Prandtl), or 1. A ring that lifts has the root above zero, one that is pushed up that of a windmill, or, where there is
+    none, that of a flow reversed; a stalled element may have several, of which bisection finds one.
+    """
+    core, condition, tip_speed = model.core, model.condition, model.tip_speed
+    n = model.steps_per_revolution
+    q, q_dot = core.trim_motion(problem, x, n)
+    psi = 2 * np.pi * np.arange(n) / n
+    climb = -condition.mu_z(tip_speed)
+    r = model.stations / model.rotor["radius"]
+
+    def excess(lam: np.ndarray) -> np.ndarray:
+        passages = zip(psi, q, q_dot, strict=True)
+        lift = [
+            core.section_circulation(condition.velocity, condition.rates, x[:3], p, a, b, lam)[0]
+            for p, a, b in passages
+        ]
+        through = np.abs(lam + climb)
+        momentum = 4 * np.pi * tip_loss(model, r, through) * lam * through * tip_speed**2
+        return momentum - model.n_blades * model.omega * np.mean(lift, axis=0)
+
+    lifts = excess(np.zeros_like(r)) <= 0.0
+    windmill = excess(np.full_like(r, -0.5 * climb)) <= 0.0
+    low = np.where(lifts, 0.0, np.where(windmill, -0.5 * climb, -1.0))
+    high = np.where(lifts, 1.0, np.where(windmill, 0.0, -climb))
+    lost = (excess(low) > 0.0) | (excess(high) < 0.0)
+    if np.any(lost):
+        at = r[np.argmax(lost)]
+        raise NumericalFailure(f"annular inflow: momentum theory has no answer for the ring at r/R = {at:.3f}")
+    for _ in range(BISECTIONS):
+        middle = 0.5 * (low + high)
+        above = excess(middle) > 0.0
+        low, high = np.where(above, low, middle), np.where(above, middle, high)
+    return 0.5 * (low + high)
+
+
+def tip_loss(model: StandModel, r: np.ndarray, through: np.ndarray) -> np.ndarray:
+    """Prandtl's share F of the momentum that a ring of finitely many blades passes on; 1 without tip loss."""
+    if model.inflow.tip_loss == "none":
+        return np.ones_like(r)
+    with np.errstate(divide="ignore"):
+        return 2 / np.pi * np.arccos(np.exp(-0.5 * model.n_blades * (1.0 - r) / through))
