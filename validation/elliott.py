@@ -1,7 +1,7 @@
 """Induced inflow one chord above the disk of the Elliott-Althoff rotor: ours at the measured points, and the scores."""
 
 import numpy as np
-from wind import DEFAULT, WAKES, wind
+from wind import DEFAULT, MARCHED, WAKES, wind
 
 from wakeflight.plotting import style
 from wakeflight.validate import Check, Outcome
@@ -46,7 +46,7 @@ def compare(case, speed, shaft_angle, controls, tolerance):
     table = case.table("inflow.csv")
     psi, r, measured = np.radians(table["psi_deg"]), table["r_R"], table["lambda_i_down"]
     found = {}
-    for name in WAKES:
+    for name in [*WAKES, MARCHED]:
         stand = wind(
             case.path("rotors/elliott-althoff.toml"),
             name,

@@ -2,7 +2,7 @@
 
 import numpy as np
 from scipy.interpolate import CubicSpline
-from wind import DEFAULT, SHEET, WAKES, wind
+from wind import DEFAULT, MARCHED, SHEET, WAKES, wind
 
 from wakeflight.plotting import style
 from wakeflight.validate import Check, Outcome
@@ -71,7 +71,7 @@ def vortices(case, condition):
     """Compare tip-vortex centres with those measured."""
     table = case.table("vortices.csv")
     found, checks = {}, []
-    for name in WAKES:
+    for name in [*WAKES, MARCHED]:
         stand = rotor_in(case, condition, name)
         for side in ("advancing", "retreating"):
             text = f"drift along the wind in a quarter turn, {side} side"

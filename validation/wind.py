@@ -11,6 +11,8 @@ DEFAULT = "default: one tip vortex of the equivalent strength"
 SHEET = "tip vortex of the largest circulation, inboard sheet"
 MAXIMUM = "tip vortex of the largest circulation alone"
 
+MARCHED = "default wake, marched in time"
+
 WAKES = {
     DEFAULT: {},
     SHEET: {"tip_strength": "max", "inboard_wake": "sheet"},
@@ -19,9 +21,11 @@ WAKES = {
 
 
 def wind(rotor, wake=DEFAULT, *, speed, shaft_angle, options=None, **arguments):
-    """Rotor in a wind from the front with a relaxation wake of one of `WAKES`, or with dynamic inflow (wake=None)."""
+    """Rotor in a wind from the front with a relaxation wake of one of `WAKES`, the wake `MARCHED`, or dynamic inflow (None)."""
     condition = {"speed": speed, "shaft_angle": shaft_angle, "climb": "0 m/s"}
-    inflow = (
-        "dynamic" if wake is None else configured(rotor, "relaxation", {**WAKES[wake], **(options or {})}, condition)
-    )
+    if wake is None:
+        inflow = "dynamic"
+    else:
+        kind = "time-marching" if wake == MARCHED else "relaxation"
+        inflow = configured(rotor, kind, {**WAKES.get(wake, {}), **(options or {})}, condition)
     return wf.tunnel(rotor, inflow=inflow, speed=speed, shaft_angle=shaft_angle, **arguments)

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from copy import copy
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -25,7 +26,7 @@ class MarchingExchange:
         self.model = model
         self.n = model.steps_per_revolution
         self.step_index = 0
-        rows = self._rows(0)
+        rows = self.rows(0)
         self.lambda_far = trimmed.lambda_far[rows]
         self.circulation = trimmed.circulation[rows]
         self.inflow = trimmed.inflow_map[rows]
@@ -47,7 +48,14 @@ class MarchingExchange:
         self.circulation_not_converged = 0
         self._frozen: tuple | None = None
 
-    def _rows(self, step: int) -> list[int]:
+    def copy(self) -> MarchingExchange:
+        """The same wake at the same moment, to be marched on its own."""
+        other = copy(self)
+        other.core = self.core.copy()
+        other.passages = self.passages.copy()
+        return other
+
+    def rows(self, step: int) -> list[int]:
         """Azimuth index of every blade after `step` steps."""
         return [(step + b * self.n // self.model.n_blades) % self.n for b in range(self.model.n_blades)]
 
@@ -60,7 +68,7 @@ class MarchingExchange:
             return self.inflow, self.model.disk_mean(self.inflow)
         if self._held_map is None or step % self.update_steps == 0:
             self._held_map = self.passages.copy()
-        rows = 0.5 * (self._held_map[self._rows(step)] + self._held_map[self._rows(step + 1)])
+        rows = 0.5 * (self._held_map[self.rows(step)] + self._held_map[self.rows(step + 1)])
         return rows, self.model.disk_mean(self._held_map)
 
     def advance(
@@ -75,7 +83,7 @@ class MarchingExchange:
         motion: modal coordinates and rates (n_blades, n_modes) that stand for those of `y`.
         """
         self.step_index += 1
-        rows = self._rows(self.step_index)
+        rows = self.rows(self.step_index)
         displacement, odd_even, distance, failed = self.core.advance(
             self.model.core, y, stick, stick_rate, rows[0], motion
         )
@@ -100,7 +108,7 @@ class MarchingExchange:
             q, q_dot = core.trim_motion(problem, x, self.n)
             self._frozen = (problem, q, q_dot, core.trim_state(problem, x, 0.0)[0])
         _, q, q_dot, y = self._frozen
-        rows = self._rows(self.step_index + 1)
+        rows = self.rows(self.step_index + 1)
         controls = x[: self.model.n_controls]
         self.advance(y, controls, np.zeros(len(controls)), (q[rows], q_dot[rows]))
         return rows, self.inflow, self.circulation

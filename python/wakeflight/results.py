@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .schema import ATTRIBUTES, COORDINATES, RUN, TRIM, TUNNEL, Variable
+from .schema import ATTRIBUTES, COORDINATES, RUN, TRANSIENT, TRIM, TUNNEL, Variable
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -50,6 +50,13 @@ def assemble_tunnel(arrays: Arrays, attributes: Mapping[str, Any]) -> xr.Dataset
     """Dataset of a rotor on a stand, from arrays by the names of the schema's `TUNNEL` table, checked like a run."""
     marked = {"program_version": _program_version(), **attributes}
     return _dataset(TUNNEL, arrays, marked, increasing=("azimuth", "station", "age", "revolution"))
+
+
+def assemble_transient(arrays: Arrays, attributes: Mapping[str, Any]) -> xr.Dataset:
+    """Dataset of a transient on the stand, from arrays by the names of the schema's `TRANSIENT` table, checked like a run."""
+    marked = {"program_version": _program_version(), **attributes}
+    marked["finished"] = int(not marked.get("failure"))
+    return _dataset(TRANSIENT, arrays, marked, increasing=("time", "station", "age"))
 
 
 def save(dataset: xr.Dataset, path: str | Path) -> Path:

@@ -320,6 +320,39 @@ TUNNEL: tuple[Variable, ...] = (
     ),
 )
 
+TRANSIENT: tuple[Variable, ...] = (
+    *_rows(
+        TIME,
+        ("theta_0", "rad", "collective pitch at the root"),
+        ("ct", "1", "thrust coefficient of the instant, aerodynamic thrust over rho pi R^2 (Omega R)^2"),
+        ("cq", "1", "torque coefficient of the instant, aerodynamic torque over rho pi R^3 (Omega R)^2"),
+        ("thrust", "N", "aerodynamic thrust along the shaft"),
+        ("torque", "N m", "aerodynamic torque about the shaft that the drive must supply"),
+        ("beta_0", "rad", "mean of the blades' flap angles, precone included"),
+        ("inflow_mean", "1", "area mean of the induced inflow v_i/(Omega R) at the blades, positive down"),
+    ),
+    *_rows(
+        BLADE,
+        ("azimuth", "rad", "azimuth of the blade, 0 over the tail"),
+        ("flap", "rad", "equivalent rigid flap angle, precone included, up positive"),
+        ("lead", "rad", "equivalent rigid lead angle, forward positive"),
+    ),
+    *_rows(
+        STATION,
+        ("inflow", "1", "induced inflow v_i/(Omega R), positive down, near wake included"),
+        ("circulation", "m2/s", "bound circulation, positive with upward lift"),
+        ("cl", "1", "section lift coefficient"),
+        ("alpha", "rad", "section angle of attack"),
+    ),
+    *_rows(
+        ("time", "xyz"),
+        ("hub_force", "N", "force of the rotor on the hub, blades' inertia and weight included, hub axes"),
+        ("hub_moment", "N m", "moment of the rotor on the hub centre, hub axes"),
+    ),
+    Variable("wake", ("time", "blade", "age", "xyz"), "m", "tip vortices, hub axes"),
+    Variable("tip_circulation", ("time", "blade", "age"), "m2/s", "circulation of the nodes of the tip vortices"),
+)
+
 ATTRIBUTES: tuple[Attribute, ...] = (
     Attribute("aircraft", "aircraft", required=True),
     Attribute("inflow_model", "inflow model", required=True),

@@ -43,7 +43,7 @@ def test_a_convergence_phase_reproduces_the_wake_standing_alone_bit_for_bit(base
     far, gamma = loop.lambda_far, loop.circulation
     for step in range(1, loop.n // 2):
         loop.frozen_step(start.problem, start.x)
-        rows = loop._rows(step)
+        rows = loop.rows(step)
         psi = 2 * np.pi * np.asarray(rows) / loop.n
         held = (y, start.x[:4], np.zeros(4), psi, q[rows], q_dot[rows])
         gamma = model.core.solve_circulation(model.wake_options, *held, far, gamma)[0]

@@ -110,12 +110,13 @@ def run(case):
         label = f"deflection at PL²/EI = {p:g}, 12 modes"
         checks.append(Check(label, ours[12][i, 0], exact[i, 0], tolerance, "L", "relative"))
     checks.append(Check.largest("tip angle, 12 modes", ours[12][:, 2], exact[:, 2], 1e-3, "rad", "relative"))
-    for i in (0, 3, 7):
-        label = f"root curvature at PL²/EI = {force[i]:g}, 12 modes"
-        checks.append(Check(label, ours[12][i, 3], exact[i, 3], np.nan, "1/L", "relative", gate=False))
+    # of a moderately deflected blade all four are asked for; beyond, shortening and curvature are shown
+    for i in (0, 1, 3, 7):
+        label, asked = f"root curvature at PL²/EI = {force[i]:g}, 12 modes", force[i] <= 0.5
+        checks.append(Check(label, ours[12][i, 3], exact[i, 3], 0.01, "1/L", "relative", gate=asked))
     for i, p in enumerate(force):
-        shown = Check(f"shortening at PL²/EI = {p:g}", lagging[i, 1], exact[i, 1], np.nan, "L", "relative", gate=False)
-        checks.append(shown)
+        label, asked = f"shortening at PL²/EI = {p:g}", p <= 0.5
+        checks.append(Check(label, lagging[i, 1], exact[i, 1], 0.01, "L", "relative", gate=asked))
     error = {n: np.abs(values[:, 0] / exact[:, 0] - 1) for n, values in ours.items()}
     for n in (2, 4):
         checks.append(

@@ -1,12 +1,12 @@
 """Lateral flapping of a model rotor at low advance ratio."""
 
 import numpy as np
-from wind import DEFAULT, SHEET, wind
+from wind import DEFAULT, MARCHED, SHEET, wind
 
 from wakeflight.plotting import style
 from wakeflight.validate import Check, Outcome
 
-WAKES = {DEFAULT: DEFAULT, SHEET: SHEET, "dynamic inflow of three states": None}
+WAKES = {DEFAULT: DEFAULT, SHEET: SHEET, MARCHED: MARCHED, "dynamic inflow of three states": None}
 TIP_SPEED = 450 * 0.3048
 
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 from hart2 import MINIMUM_NOISE, rotor_in
-from wind import DEFAULT, SHEET
+from wind import DEFAULT, MARCHED, SHEET
 
 from wakeflight.plotting import style
 from wakeflight.validate import Check, Outcome
@@ -10,6 +10,7 @@ from wakeflight.validate import Check, Outcome
 RUNS = {
     DEFAULT: (DEFAULT, {}),
     SHEET: (SHEET, {}),
+    MARCHED: (MARCHED, {}),
     "default, without the higher harmonic": (DEFAULT, {"higher_harmonics": []}),
     "default, higher harmonic of opposite sign": (
         DEFAULT,

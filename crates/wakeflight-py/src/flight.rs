@@ -24,6 +24,7 @@ use wakeflight::integrate::linearised::Linearised;
 use wakeflight::rotor::circulation::BladeInstant;
 use wakeflight::rotor::exchange::{ExchangeOptions, MarchingExchange};
 use wakeflight::rotor::hub::Rotor;
+use wakeflight::rotor::swashplate::MovingPitch;
 use wakeflight::wake::TimeMarchingWake;
 
 fn failed(error: StepFailure) -> PyErr {
@@ -243,7 +244,11 @@ impl Core<'_> {
                 };
                 a.inner.blade_pitch(&inputs, 0.0, psi)
             }
-            Self::Stand(s) => s.inner.pitch(stick.try_into().map_err(|_| wrong())?, &s.higher, psi),
+            Self::Stand(s) => {
+                let controls = stick.try_into().map_err(|_| wrong())?;
+                let rates = rate.try_into().map_err(|_| wrong())?;
+                MovingPitch { controls, rates, higher: &s.higher }.at(0.0, psi, s.inner.rotor.omega).into()
+            }
         };
         Ok(BladeInstant { psi, modal, control })
     }
@@ -363,6 +368,11 @@ impl PyMarchingExchange {
     #[getter]
     fn segment_evaluations(&self) -> u64 {
         self.inner.wake.segment_evaluations()
+    }
+
+    /// Independent copy.
+    fn copy(&self) -> Self {
+        Self { inner: self.inner.clone() }
     }
 }
 

@@ -34,10 +34,16 @@ pub fn pitt_peters_rate(
     Ok(PittPeters { apparent_mass, mass_flow }.inflow_dot(inflow, disk, omega))
 }
 
-/// Mean induced inflow of momentum theory at `ct`, squared in-plane advance ratio and velocity down along the shaft.
+/// Mean induced inflow of momentum theory at `ct`, squared in-plane advance ratio and velocity down along the shaft; of
+/// several values the one continued from hover, or the least.
 #[pyfunction]
-pub fn momentum_inflow(ct: f64, mu_squared: f64, mu_z: f64) -> f64 {
-    pitt_peters::momentum_inflow(ct, mu_squared, mu_z)
+#[pyo3(signature = (ct, mu_squared, mu_z, least=false))]
+pub fn momentum_inflow(ct: f64, mu_squared: f64, mu_z: f64, least: bool) -> f64 {
+    if least {
+        pitt_peters::least_momentum_inflow(ct, mu_squared, mu_z)
+    } else {
+        pitt_peters::momentum_inflow(ct, mu_squared, mu_z)
+    }
 }
 
 /// Adds this file's functions to the module.

@@ -7,16 +7,18 @@ use pyo3::exceptions::{PyArithmeticError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::f64::consts::TAU;
-use wakeflight::blade::aerodynamics::Air;
-use wakeflight::blade::loads::BladeInflow;
+use wakeflight::blade::aerodynamics::{Air, SectionAir};
+use wakeflight::blade::kinematics::ModalMotion;
+use wakeflight::blade::loads::{BladeInflow, HubMotion};
 use wakeflight::blade::model::Discretisation;
 use wakeflight::blade::thin_section::ThinSection;
-use wakeflight::inflow::pitt_peters::PittPeters;
+use wakeflight::inflow::pitt_peters::{MassFlow, PittPeters};
+use wakeflight::integrate::stand::BladeStep;
 use wakeflight::rotor::circulation::BladeInstant;
 use wakeflight::rotor::data::RotorData;
 use wakeflight::rotor::hub::Rotor;
 use wakeflight::rotor::stand::{ControlEquation, Stand, StandInflow, StandProblem};
-use wakeflight::rotor::swashplate::{PitchHarmonic, Rigging};
+use wakeflight::rotor::swashplate::{MovingPitch, PitchHarmonic, Rigging};
 use wakeflight::wake::WakeOptions;
 
 fn invalid(error: impl std::fmt::Display) -> PyErr {
@@ -86,7 +88,8 @@ pub(crate) fn hub_state(y: &[f64]) -> PyResult<([f64; 3], [f64; 3])> {
 #[pymethods]
 impl PyStand {
     /// From the JSON of the rotor data, air, weight, discretisation; `free_wake` switches the tip loss off, `thin_sections`
-    /// (with or without the Prandtl-Glauert factor) makes the blade a Weissinger one.
+    /// (with or without the Prandtl-Glauert factor) makes the blade a Weissinger one, `windmill` has dynamic inflow take the
+    /// windmill brake state in descent.
     #[new]
     #[allow(clippy::too_many_arguments, reason = "the fields of the discretisation")]
     fn new(
@@ -102,6 +105,7 @@ impl PyStand {
         reference_pitch: f64,
         higher: Vec<(usize, f64, f64)>,
         thin_sections: Option<bool>,
+        windmill: bool,
     ) -> PyResult<Self> {
         let data: RotorData = serde_json::from_str(data_json).map_err(invalid)?;
         let discretisation = Discretisation { n_elements, n_modes, n_gauss, n_stations, reference_pitch };
@@ -110,7 +114,9 @@ impl PyStand {
         let mut rotor = Rotor::new(&data, rigging, tip_loss_factor, &discretisation).map_err(invalid)?;
         rotor.thin = thin_sections.map(|factor| ThinSection::of(&data.airfoil, factor));
         let air = Air { density, speed_of_sound };
-        let inner = Stand { rotor, air, gravity, pitt_peters: PittPeters::default() };
+        let mass_flow = if windmill { MassFlow::WindmillBrake } else { MassFlow::Momentum };
+        let pitt_peters = PittPeters { mass_flow, ..PittPeters::default() };
+        let inner = Stand { rotor, air, gravity, pitt_peters };
         let higher =
             higher.into_iter().map(|(order, cosine, sine)| PitchHarmonic { order, cosine, sine }).collect();
         Ok(Self { inner, higher })
@@ -309,44 +315,147 @@ impl PyStand {
         }
         let i = stand.layout(&problem.0).inflow();
         let hub = stand.hub(problem.0.velocity, problem.0.rates);
-        let mut loads: [Vec<f64>; 4] = Default::default();
-        const FIELDS: [&str; 8] = ["cl", "cd", "cm", "alpha", "mach", "circulation", "speed", "inflow"];
-        let mut fields: [Vec<f64>; 8] = Default::default();
-        for (row, &azimuth) in psi.iter().enumerate() {
-            let blade = stand.instant(&problem.0, &x, azimuth);
+        let passages = psi.iter().enumerate().map(|(row, &azimuth)| {
             let given = match &held {
                 Some(map) => stand.rotor.held_inflow(&map[row * width..(row + 1) * width]),
                 None => BladeInflow::Disk([x[i], x[i + 1], x[i + 2]]),
             };
-            let b = stand.rotor.blade_loads(stand.air, &hub, azimuth, &blade.modal, &blade.control, &given);
+            (stand.instant(&problem.0, &x, azimuth), given)
+        });
+        self.loads(py, &hub, passages)
+    }
+
+    /// The same for blades at azimuths `psi` (m,) with a motion of their own (m, n_modes), pitch controls that move at the
+    /// given rates, and held inflow.
+    #[allow(clippy::too_many_arguments, reason = "the motion of the blades")]
+    fn blade_passages<'py>(
+        &self,
+        py: Python<'py>,
+        y: PyReadonlyArray1<f64>,
+        psi: PyReadonlyArray1<f64>,
+        motion: Motion<'py>,
+        controls: [f64; 3],
+        control_rates: [f64; 3],
+        inflow: PyReadonlyArray2<f64>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let (velocity, rates) = hub_state(y.as_slice()?)?;
+        let psi = psi.as_slice()?;
+        let motions = self.motions(&motion, psi.len())?;
+        let map = self.rows_of_inflow(&inflow, psi.len())?;
+        let width = self.inner.rotor.inflow_width();
+        let pitch = MovingPitch { controls, rates: control_rates, higher: &self.higher };
+        let passages = psi.iter().zip(motions).enumerate().map(|(row, (&psi, modal))| {
+            let control = pitch.at(0.0, psi, self.inner.rotor.omega).into();
+            let given = self.inner.rotor.held_inflow(&map[row * width..(row + 1) * width]);
+            (BladeInstant { psi, modal, control }, given)
+        });
+        self.loads(py, &self.inner.hub(velocity, rates), passages)
+    }
+
+    /// Blades (m) after a step of time [s]: modal coordinates, rates and accelerations (m, n_modes); azimuths `psi` and
+    /// `motion` at its start, pitch controls that move at the given rates from there on, inflow held.
+    #[allow(clippy::too_many_arguments, reason = "the motion of the blades")]
+    fn advance_blades<'py>(
+        &self,
+        py: Python<'py>,
+        y: PyReadonlyArray1<f64>,
+        psi: PyReadonlyArray1<f64>,
+        motion: Motion<'py>,
+        controls: [f64; 3],
+        control_rates: [f64; 3],
+        inflow: PyReadonlyArray2<f64>,
+        step: f64,
+    ) -> PyResult<[Bound<'py, PyArray2<f64>>; 3]> {
+        let (velocity, rates) = hub_state(y.as_slice()?)?;
+        let hub = self.inner.hub(velocity, rates);
+        let psi = psi.as_slice()?.to_vec();
+        let motions = self.motions(&motion, psi.len())?;
+        let map = self.rows_of_inflow(&inflow, psi.len())?;
+        let width = self.inner.rotor.inflow_width();
+        let pitch = MovingPitch { controls, rates: control_rates, higher: &self.higher };
+        let advanced: Vec<ModalMotion<f64>> = py
+            .detach(|| {
+                let each = psi.iter().zip(motions).zip(map.chunks_exact(width));
+                each.map(|((&psi, motion), inflow)| {
+                    BladeStep { stand: &self.inner, hub: &hub, psi, motion, pitch, inflow, step }.advanced()
+                })
+                .collect::<Result<_, _>>()
+            })
+            .map_err(|e| PyArithmeticError::new_err(e.to_string()))?;
+        let n = self.inner.rotor.blade.n_modes;
+        let gathered = |part: fn(&ModalMotion<f64>) -> &[f64]| {
+            let values: Vec<f64> = advanced.iter().flat_map(|m| part(m)[..n].iter().copied()).collect();
+            Array::from_shape_vec((psi.len(), n), values).map_err(invalid).map(|a| a.into_pyarray(py))
+        };
+        Ok([gathered(|m| &m.q)?, gathered(|m| &m.q_dot)?, gathered(|m| &m.q_ddot)?])
+    }
+}
+
+/// Modal coordinates, rates and accelerations (m, n_modes).
+type Motion<'py> = (PyReadonlyArray2<'py, f64>, PyReadonlyArray2<'py, f64>, PyReadonlyArray2<'py, f64>);
+
+impl PyStand {
+    /// Loads on the hub and air at the stations of blades at their instants, with their inflow.
+    fn loads<'py, 'a>(
+        &self,
+        py: Python<'py>,
+        hub: &HubMotion<f64>,
+        passages: impl Iterator<Item = (BladeInstant, BladeInflow<'a, f64>)>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let stand = &self.inner;
+        let mut loads: [Vec<f64>; 4] = Default::default();
+        const FIELDS: [&str; 8] = ["cl", "cd", "cm", "alpha", "mach", "circulation", "speed", "inflow"];
+        let mut fields: [Vec<f64>; 8] = Default::default();
+        let mut rows = 0;
+        for (blade, given) in passages {
+            rows += 1;
+            let (air, psi) = (stand.air, blade.psi);
+            let b = stand.rotor.blade_loads(air, hub, psi, &blade.modal, &blade.control, &given);
             for (all, one) in loads.iter_mut().zip([b.force, b.moment, b.aero_force, b.aero_moment]) {
                 all.extend(one.array());
             }
-            stand.rotor.blade_air(
-                stand.air,
-                &hub,
-                azimuth,
-                &blade.modal,
-                &blade.control,
-                &given,
-                |_, air, lambda| {
-                    let values =
-                        [air.cl, air.cd, air.cm, air.alpha, air.mach, air.circulation, air.speed, lambda];
-                    for (field, value) in fields.iter_mut().zip(values) {
-                        field.push(value);
-                    }
-                },
-            );
+            let visit = |_: usize, air: &SectionAir<f64>, lambda: f64| {
+                let values =
+                    [air.cl, air.cd, air.cm, air.alpha, air.mach, air.circulation, air.speed, lambda];
+                for (field, value) in fields.iter_mut().zip(values) {
+                    field.push(value);
+                }
+            };
+            stand.rotor.blade_air(air, hub, psi, &blade.modal, &blade.control, &given, visit);
         }
         let d = PyDict::new(py);
-        let shape = |m, v| Array::from_shape_vec((psi.len(), m), v).map_err(invalid);
+        let shape = |m, v| Array::from_shape_vec((rows, m), v).map_err(invalid);
         for (name, values) in ["force", "moment", "aero_force", "aero_moment"].into_iter().zip(loads) {
             d.set_item(name, shape(3, values)?.into_pyarray(py))?;
         }
         for (name, values) in FIELDS.into_iter().zip(fields) {
-            d.set_item(name, shape(n, values)?.into_pyarray(py))?;
+            d.set_item(name, shape(stand.rotor.blade.stations.len(), values)?.into_pyarray(py))?;
         }
         Ok(d)
+    }
+
+    /// Motions of `m` blades.
+    fn motions(&self, given: &Motion, m: usize) -> PyResult<Vec<ModalMotion<f64>>> {
+        let (q, q_dot, q_ddot) = (given.0.as_array(), given.1.as_array(), given.2.as_array());
+        let n = self.inner.rotor.blade.n_modes;
+        if [q.dim(), q_dot.dim(), q_ddot.dim()].iter().any(|&d| d != (m, n)) {
+            return Err(invalid(format!("motion must have the shape ({m}, {n}) three times")));
+        }
+        let row = |k: usize| {
+            let mut modal = motion(q.row(k).iter().copied(), q_dot.row(k).iter().copied());
+            modal.q_ddot.iter_mut().zip(q_ddot.row(k)).for_each(|(a, &v)| *a = v);
+            modal
+        };
+        Ok((0..m).map(row).collect())
+    }
+
+    /// Held inflow of `m` blades, row by row.
+    fn rows_of_inflow(&self, inflow: &PyReadonlyArray2<f64>, m: usize) -> PyResult<Vec<f64>> {
+        let (map, width) = (inflow.as_array(), self.inner.rotor.inflow_width());
+        if map.dim() != (m, width) {
+            return Err(invalid(format!("inflow must have the shape ({m}, {width})")));
+        }
+        Ok(map.iter().copied().collect())
     }
 }
 

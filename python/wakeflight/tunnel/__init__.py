@@ -223,12 +223,13 @@ def _compiled(
     if not isinstance(model, DynamicInflow):
         dynamic = DynamicInflow(n_stations=model.n_stations, azimuth_step=None)
     try:
-        simple = StandModel.build(rotor, condition, dynamic, n_harmonics)
+        windmill = dynamic is model
+        simple = StandModel.build(rotor, condition, dynamic, n_harmonics, windmill=windmill)
         if rotor.flexible and not rotor.fixed_reference_pitch:
             # modes at the pitch the blade will have, where the file does not say
             guess = first_guess(simple, simple.problem(None))[0]
             rotor = rotor.with_reference_pitch(guess)
-            simple = StandModel.build(rotor, condition, dynamic, n_harmonics)
+            simple = StandModel.build(rotor, condition, dynamic, n_harmonics, windmill=windmill)
         if dynamic is model:
             return simple, None
         return simple, StandModel.build(rotor, condition, model, n_harmonics, thin_sections)

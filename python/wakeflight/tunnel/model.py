@@ -62,6 +62,9 @@ class StandModel(CompiledRotor):
     n_harmonics: int
     thin_sections: bool | None = None
     """None: lifting line with section tables; otherwise Weissinger, with (True) or without Prandtl-Glauert factor."""
+    windmill: bool = False
+    """Whether dynamic inflow takes the windmill brake state in descent: a result does, the start of a wake does not, since it
+    must exist at any collective."""
     n_controls: ClassVar[int] = 3
 
     @classmethod
@@ -72,6 +75,7 @@ class StandModel(CompiledRotor):
         inflow: StandInflow,
         n_harmonics: int,
         thin_sections: bool | None = None,
+        windmill: bool = False,
     ) -> StandModel:
         """Compile; the tip loss of the file acts with dynamic inflow alone. Gravity acts down the shaft."""
         d = rotor.discretisation
@@ -89,8 +93,9 @@ class StandModel(CompiledRotor):
             d.reference_pitch,
             list(condition.higher),
             thin_sections,
+            windmill,
         )
-        return cls(rotor, condition, inflow, core, n_harmonics, thin_sections)
+        return cls(rotor, condition, inflow, core, n_harmonics, thin_sections, windmill)
 
     def problem(self, inflow_map: np.ndarray | None) -> _core.StandProblem:
         """The equations on a held inflow map (n_azimuths, n_stations), or with dynamic inflow."""

@@ -14,7 +14,11 @@ from ..trim_results import HORSEPOWER
 from .solve import Solution, by_azimuth
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import xarray as xr
+
+    from ..progress import Progress, Silent
 
 SECTION_FIELDS = ("cl", "cd", "cm", "alpha", "mach")
 
@@ -241,6 +245,22 @@ class Tunnel:
         passage = range(self.model.steps_per_revolution // self.model.n_blades)
         return np.mean([s.wake.relaxation.wake_velocity(at, k) for k in passage], axis=0)
 
+    def transient(
+        self, collective: Sequence[Any], duration: Any, progress: Progress | Silent | None = None
+    ) -> xr.Dataset:
+        """Move the collective in time from here on and follow rotor and wake: a Dataset over time.
+
+        collective: pairs (time, collective at the root), text with units, linear between them and held after the last, from
+        the stand's own collective at 0 s: a ramp of 200 deg/s is `[("0.035 s", "12 deg")]` from 5 deg. duration: text.
+
+        Every azimuth step the blades move by their own equations under the inflow held (Radau IIA), then circulation, wake and
+        inflow are exchanged as in flight; cyclic, wind and rotor speed stay. The stand itself is not changed. Needs a
+        time-marching wake. Raises `InputError`, or `NumericalFailure` with what was computed in `.partial`.
+        """
+        from .transient import transient
+
+        return transient(self, collective, duration, progress)
+
     def _path(self) -> tuple[np.ndarray, np.ndarray] | None:
         """Mean tip vortex by azimuth (n, n_ages, 3) [m] and the RMS distance from it (n, n_ages)."""
         s = self.solution
@@ -286,7 +306,7 @@ class Tunnel:
         from ..results import assemble_tunnel
 
         arrays = {**self._scalars(), **self._maps(), **self._motion(), **self._wake_arrays(), **self._histories()}
-        return assemble_tunnel({name: np.asarray(value) for name, value in arrays.items()}, self._attributes())
+        return assemble_tunnel({name: np.asarray(value) for name, value in arrays.items()}, self.attributes())
 
     def save(self, path: str | Path) -> Path:
         """Write `.data` as NetCDF."""
@@ -363,7 +383,8 @@ class Tunnel:
         modal = {"modal": q * np.asarray(rotor["angle_per_coordinate"])} if q.shape[1] else {}
         return {"theta": theta, "flap": flap, "lead": lead, **tips, **modal}
 
-    def _attributes(self) -> dict[str, Any]:
+    def attributes(self) -> dict[str, Any]:
+        """Attributes of the Dataset: rotor, condition, inflow, and what was counted."""
         m, s, c = self.model, self.solution, self.model.condition
         wake = s.march or s.wake
         evaluations = 0

@@ -71,14 +71,14 @@ def first_guess(model: StandModel, problem: _core.StandProblem) -> np.ndarray:
     gain = 0.5 * sigma * slope
     if "thrust" in wanted:
         ct = wanted["thrust"] / model.dynamic_pressure_area
-        lam = momentum_inflow(ct, mu, mu_z)
+        lam = momentum_inflow(ct, mu, mu_z, model.windmill)
         theta_75 = (ct / gain + 0.5 * (lam - mu_z)) / (1 / 3 + mu**2 / 2)
     else:
         theta_75 = wanted["collective"] + twist if "collective" in wanted else np.radians(4.0)
         lam = 0.0
         for _ in range(200):
             ct = gain * (theta_75 * (1 / 3 + mu**2 / 2) - 0.5 * (lam - mu_z))
-            lam = 0.8 * lam + 0.2 * momentum_inflow(ct, mu, mu_z)
+            lam = 0.8 * lam + 0.2 * momentum_inflow(ct, mu, mu_z, model.windmill)
     x[0] = wanted.get("collective", theta_75 - twist)
     tilt = -mu * (8 / 3 * theta_75 - 2 * (lam - mu_z)) / (1 - mu**2 / 2)
     found = "longitudinal_cyclic" not in wanted
@@ -92,16 +92,9 @@ def first_guess(model: StandModel, problem: _core.StandProblem) -> np.ndarray:
     return x
 
 
-def momentum_inflow(ct: float, mu: float, mu_z: float) -> float:
-    """Root of lambda_0 = C_T/(2 sqrt(mu^2 + (lambda_0 - mu_z)^2)), from the side of the largest."""
-    if ct < 0.0:
-        return -momentum_inflow(-ct, mu, -mu_z)
-    low, high = 0.0, max(mu_z, 0.0) + np.sqrt(0.5 * ct)
-    for _ in range(100):
-        middle = 0.5 * (low + high)
-        excess = 2.0 * middle * np.hypot(mu, middle - mu_z) - ct
-        low, high = (low, middle) if excess > 0.0 else (middle, high)
-    return float(0.5 * (low + high))
+def momentum_inflow(ct: float, mu: float, mu_z: float, least: bool = False) -> float:
+    """Root of lambda_0 = C_T/(2 sqrt(mu^2 + (lambda_0 - mu_z)^2)) that dynamic inflow takes: continued from hover, or least."""
+    return _core.momentum_inflow(ct, mu * mu, mu_z, least)
 
 
 def solve_equations(model: StandModel, problem: _core.StandProblem, x0: np.ndarray) -> np.ndarray:

@@ -19,6 +19,9 @@ pub enum ApparentMass {
 pub enum MassFlow {
     /// The value of momentum theory at the thrust of the moment.
     Momentum,
+    /// The least of the values of momentum theory: in descent that of the windmill brake state where there is one. It jumps
+    /// where that state begins, and no steady answer may exist about there.
+    WindmillBrake,
     /// The state lambda_0 itself.
     State,
 }
@@ -81,6 +84,7 @@ impl PittPeters {
         let mu_squared = disk.mu_x.squared() + disk.mu_y.squared();
         let mean = match self.mass_flow {
             MassFlow::Momentum => momentum_inflow(disk.ct, mu_squared, disk.mu_z),
+            MassFlow::WindmillBrake => least_momentum_inflow(disk.ct, mu_squared, disk.mu_z),
             MassFlow::State => lambda_0,
         };
         let total = mean - disk.mu_z;
@@ -117,7 +121,17 @@ impl PittPeters {
 /// Solved to rounding on values by Newton kept inside a bracket, then one Newton step in `S`, which makes the
 /// derivatives exact. In steep descent, where several roots exist, the search starts from the side of the largest.
 pub fn momentum_inflow<S: Real>(ct: S, mu_squared: S, mu_z: S) -> S {
-    let root = momentum_root(ct.re(), mu_squared.re(), mu_z.re());
+    polished(momentum_root(ct.re(), mu_squared.re(), mu_z.re(), false), ct, mu_squared, mu_z)
+}
+
+/// The least root of the same equation: axially beyond twice the hover velocity of descent the windmill brake state, whose
+/// slipstream momentum theory knows.
+pub fn least_momentum_inflow<S: Real>(ct: S, mu_squared: S, mu_z: S) -> S {
+    polished(momentum_root(ct.re(), mu_squared.re(), mu_z.re(), true), ct, mu_squared, mu_z)
+}
+
+/// A root with its derivatives.
+fn polished<S: Real>(root: f64, ct: S, mu_squared: S, mu_z: S) -> S {
     let total = -mu_z + root;
     let speed = (mu_squared + total.squared() + TINY).sqrt();
     let residual = speed * (2.0 * root) - ct;
@@ -132,13 +146,21 @@ fn slope(root: f64, mu_squared: f64, mu_z: f64) -> f64 {
     2.0 * speed + 2.0 * root * total / speed
 }
 
-fn momentum_root(ct: f64, mu_squared: f64, mu_z: f64) -> f64 {
+fn momentum_root(ct: f64, mu_squared: f64, mu_z: f64, least: bool) -> f64 {
     if ct < 0.0 {
-        return -momentum_root(-ct, mu_squared, -mu_z);
+        return -momentum_root(-ct, mu_squared, -mu_z, least);
     }
     let residual = |x: f64| 2.0 * x * (mu_squared + (x - mu_z).powi(2) + TINY).sqrt() - ct;
     let mut low = 0.0;
     let mut high = mu_z.max(0.0) + (0.5 * ct).sqrt();
+    let folds = mu_z * mu_z - 8.0 * mu_squared;
+    if least && mu_z > 0.0 && folds >= 0.0 {
+        // where the residual first turns down: a root below it is the least
+        let crest = 0.25 * (3.0 * mu_z - folds.sqrt());
+        if residual(crest) >= 0.0 {
+            high = crest;
+        }
+    }
     let mut x = high;
     for _ in 0..100 {
         let r = residual(x);
@@ -179,6 +201,17 @@ mod tests {
             }
         }
         assert!((momentum_inflow(0.005, 0.0, 0.0) - 0.05_f64).abs() < 1e-12);
+        // windmill brake state: v_i = V_d/2 - sqrt(V_d^2/4 - v_h^2); slower descent and a fast wind have one root
+        for rate in [2.01, 2.5, 4.0] {
+            let exact = 0.05 * (0.5 * rate - (0.25_f64 * rate * rate - 1.0).sqrt());
+            let found: f64 = least_momentum_inflow(0.005, 0.0, 0.05 * rate);
+            assert!((found - exact).abs() < 1e-12, "{rate}: {found} {exact}");
+        }
+        for (mu, mu_z) in [(0.0, 0.09), (0.0, -0.1), (0.185, 0.3)] {
+            let root: f64 = momentum_inflow(0.005, mu * mu, mu_z);
+            let least: f64 = least_momentum_inflow(0.005, mu * mu, mu_z);
+            assert_eq!(root, least);
+        }
         assert_eq!(momentum_inflow(0.0, 0.0, 0.0), 0.0);
     }
 

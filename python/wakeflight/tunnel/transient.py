@@ -1,0 +1,166 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""Collective that moves in time on the stand: blades, circulation and marching wake followed step by step."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..errors import InputError, NumericalFailure
+from ..progress import Progress, Silent
+from ..units import quantity
+from .condition import within
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from .results import Tunnel
+
+LONGEST = 1000.0
+"""Revolutions that a transient may last at most."""
+
+
+@dataclass(frozen=True)
+class History:
+    """Change of collective over time, linear between its points and held after the last; it begins as the stand was.
+
+    time [s], ascending from the start of the transient; collective at the root [rad].
+    """
+
+    time: np.ndarray
+    collective: np.ndarray
+
+    def at(self, t: float) -> float:
+        """Collective [rad] at time `t` [s]."""
+        return float(np.interp(t, self.time, self.collective))
+
+
+def history(points: Sequence[Any], start: float) -> History:
+    """From pairs (time, collective), text with units; the first point is the stand's own collective at time zero."""
+    form = 'must be pairs (time, collective) such as [("0 s", "5 deg"), ("0.035 s", "12 deg")]'
+    if isinstance(points, str) or not isinstance(points, Sequence):
+        raise InputError.of("collective", points, form)
+    time, angle = [0.0], [start]
+    for pair in points:
+        if isinstance(pair, str) or not isinstance(pair, Sequence) or len(pair) != 2:
+            raise InputError.of("collective", pair, form)
+        t = quantity(pair[0], "s", "collective time")
+        theta = within("collective", pair[1], "rad", -0.5 * np.pi, 0.5 * np.pi, "deg")
+        if t < time[-1] or (t == time[-1] and len(time) > 1):
+            raise InputError.of("collective time", pair[0], "must ascend from 0 s")
+        if t == 0.0 and abs(theta - start) > 1e-9:
+            raise InputError.of(
+                "collective",
+                pair[1],
+                f"must be that of the stand, {np.degrees(start):.6g} deg, at 0 s: pitch does not jump",
+            )
+        if t > 0.0:
+            time.append(t)
+            angle.append(theta)
+    return History(np.array(time), np.array(angle))
+
+
+class Recorder:
+    """What a transient leaves at every step."""
+
+    def __init__(self) -> None:
+        self.rows: dict[str, list[np.ndarray]] = {}
+
+    def add(self, **values: Any) -> None:
+        """Append one value of each."""
+        for name, value in values.items():
+            self.rows.setdefault(name, []).append(np.asarray(value))
+
+    def arrays(self) -> dict[str, np.ndarray]:
+        """Everything along time first."""
+        return {name: np.array(rows) for name, rows in self.rows.items()}
+
+
+def transient(
+    stand: Tunnel, collective: Sequence[Any], duration: Any, progress: Progress | Silent | None = None
+) -> xr.Dataset:
+    """See `Tunnel.transient`."""
+    from ..results import assemble_transient
+
+    solution, model = stand.solution, stand.model
+    if solution.march is None:
+        raise InputError.of("inflow", model.inflow.name, "a transient needs a marching wake: inflow time-marching")
+    if model.aircraft.discretisation.n_modes and not model.n_harmonics:
+        raise InputError.of("n_harmonics", model.n_harmonics, "must be above 0")
+    moved = history(collective, float(solution.x[0]))
+    step = 2 * np.pi / model.omega / model.steps_per_revolution
+    length = within("duration", duration, "s", step, LONGEST * 2 * np.pi / model.omega, "s")
+    n_steps = int(np.ceil(length / step - 1e-9))
+    progress = progress or Silent()
+    progress.phase("transient", n_steps)
+    kept = Recorder()
+    failure = ""
+    try:
+        for _ in _march(stand, moved, step, n_steps, kept):
+            progress.advance(1, "")
+    except ArithmeticError as reason:
+        failure = f"transient on the stand, t = {kept.rows['time'][-1]:.4f} s: {reason}"
+    ages = 2 * np.pi / model.steps_per_revolution * np.arange(kept.rows["wake"][0].shape[1])
+    attributes = {**stand.attributes(), "failure": failure, "step": step}
+    data = assemble_transient({**kept.arrays(), "station": model.stations / stand.radius, "age": ages}, attributes)
+    if failure:
+        raise NumericalFailure(failure, partial=data)
+    return data
+
+
+def _march(stand: Tunnel, moved: History, step: float, n_steps: int, kept: Recorder):
+    """March `n_steps`, recording the start and every step."""
+    solution, model = stand.solution, stand.model
+    core, problem, x = model.core, solution.problem, solution.x
+    march = solution.march.copy()
+    y = core.trim_state(problem, x, 0.0)[0]
+    periodic = core.trim_motion(problem, x, march.n)
+    rows = march.rows(march.step_index)
+    q, q_dot = (part[rows] for part in periodic)
+    motion = (q, q_dot, np.zeros_like(q))
+    cyclic = x[1:3]
+    for k in range(n_steps + 1):
+        t = k * step
+        psi = 2 * np.pi * np.array(march.rows(march.step_index)) / march.n
+        # the collective is linear over a step: corners of the history are met where steps end
+        now, ahead = moved.at(t), moved.at(t + step)
+        controls, rates = [now, *cyclic], [(ahead - now) / step, 0.0, 0.0]
+        _record(
+            kept, stand, march, core.blade_passages(y, psi, motion, controls, rates, march.inflow), t, psi, now, motion
+        )
+        if k == n_steps:
+            return
+        motion = tuple(core.advance_blades(y, psi, motion, controls, rates, march.inflow, step))
+        later = (moved.at(t + 2 * step) - ahead) / step
+        march.advance(y, np.array([ahead, *cyclic]), np.array([later, 0.0, 0.0]), motion[:2])
+        yield k
+
+
+def _record(kept: Recorder, stand: Tunnel, march, passages, t: float, psi, collective: float, motion) -> None:
+    model = stand.model
+    force, moment = passages["aero_force"].sum(axis=0), passages["aero_moment"].sum(axis=0)
+    flap, lead = model.core.equivalent_angles(np.ascontiguousarray(motion[0]))
+    n = model.stations.size
+    scale = model.dynamic_pressure_area
+    kept.add(
+        time=t,
+        azimuth=psi,
+        theta_0=collective,
+        ct=force[2] / scale,
+        cq=-moment[2] / (scale * stand.radius),
+        thrust=force[2],
+        torque=-moment[2],
+        hub_force=passages["force"].sum(axis=0),
+        hub_moment=passages["moment"].sum(axis=0),
+        flap=flap,
+        lead=lead,
+        beta_0=np.mean(flap),
+        inflow_mean=model.disk_mean(march.inflow[:, :n]),
+        inflow=march.inflow[:, :n],
+        **{name: passages[name] for name in ("circulation", "cl", "alpha")},
+        wake=march.position(),
+        tip_circulation=march.core.marker_circulation(),
+    )

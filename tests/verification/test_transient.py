@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""A collective that moves on the stand: the blades' own motion in time, thrust that overshoots and comes to rest."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import wakeflight as wf
+from wakeflight.results import load, save
+from wakeflight.trim import resample
+
+CARADONNA = Path(__file__).resolve().parents[2] / "validation/rotors/caradonna-tung.toml"
+WAKE = {"turns": 2, "azimuth_step": "15 deg", "n_stations": 10, "near_wake_angle": "30 deg"}
+
+
+@pytest.fixture(scope="module")
+def climbing():
+    """The clamped rotor of Caradonna and Tung in a climb, where its wake is periodic."""
+    return wf.tunnel(CARADONNA, "12 deg", climb="15 m/s", inflow=wf.TimeMarchingWake(**WAKE))
+
+
+def test_blades_marched_in_time_find_the_periodic_motion_of_the_harmonic_balance():
+    # elastic blades of the UH-60A in a wind, inflow of mid-step held over each step: two methods, one motion
+    given = {"speed": "80 kt", "shaft_angle": "-4 deg", "lateral_cyclic": "2 deg", "longitudinal_cyclic": "-5 deg"}
+    stand = wf.tunnel("uh60a", "14 deg", inflow=wf.RelaxationWake(**WAKE), **given)
+    core, problem, x = stand.model.core, stand.solution.problem, stand.solution.x
+    n = stand.model.steps_per_revolution
+    mid = resample(stand.solution.inflow_map, 2 * n)[1::2]
+    y = core.trim_state(problem, x, 0.0)[0]
+    q, q_dot = core.trim_motion(problem, x, n)
+    motion, flap = (q[:1], q_dot[:1], np.zeros_like(q[:1])), []
+    step = 2 * np.pi / stand.model.omega / n
+    for k in range(4 * n):
+        psi = np.array([2 * np.pi * (k % n) / n])
+        row = mid[k % n : k % n + 1]
+        motion = tuple(core.advance_blades(y, psi, motion, list(x[:3]), [0.0] * 3, row, step))
+        flap.append(core.equivalent_angles(np.ascontiguousarray(motion[0]))[0][0])
+    balance = core.equivalent_angles(q)[0]
+    difference = np.array(flap[-n:]) - np.roll(balance, -1)
+    assert np.ptp(balance) > np.radians(5.0)
+    assert np.abs(difference).max() < np.radians(0.005)
+
+
+def test_a_collective_that_is_held_changes_nothing(climbing):
+    data = climbing.transient([], "0.1 s")
+    assert np.ptp(data.ct.values) < 1e-5 * climbing.ct
+    assert data.ct.values[0] == pytest.approx(climbing.ct, rel=1e-5)
+
+
+def test_thrust_overshoots_a_ramp_and_ends_where_the_stand_is_at_the_new_collective(climbing, tmp_path):
+    turn = 2 * np.pi / climbing.model.omega
+    data = climbing.transient([("0.01 s", "14 deg")], f"{8 * turn} s")
+    after = wf.tunnel(CARADONNA, "14 deg", climb="15 m/s", inflow=wf.TimeMarchingWake(**WAKE))
+    assert np.degrees(data.theta_0.values[[0, -1]]) == pytest.approx([12.0, 14.0])
+    assert data.ct.values[-1] == pytest.approx(after.ct, rel=1e-3)
+    assert data.cq.values[-1] == pytest.approx(after.cq, rel=1e-3)
+    # inflow follows the wake, which takes its time: the first thrust is that of the old inflow
+    assert data.ct.values.max() > after.ct * 1.05
+    assert data.inflow_mean.values[0] < data.inflow_mean.values[-1]
+    assert data.wake.dims == ("time", "blade", "age", "xyz")
+    assert load(save(data, tmp_path / "transient.nc")).equals(data)
+    # the stand keeps its own wake
+    assert climbing.transient([("0.01 s", "14 deg")], "0.02 s").ct.values[1] == data.ct.values[1]
+
+
+@pytest.mark.parametrize(
+    ("collective", "duration", "named"),
+    [
+        ("14 deg", "1 s", "pairs"),
+        ([("0.1 s", "14")], "1 s", "collective"),
+        ([("0.1 s", "14 deg"), ("0.05 s", "12 deg")], "1 s", "ascend"),
+        ([("0 s", "14 deg")], "1 s", "does not jump"),
+        ([("0.1 s", "14 deg")], "1", "duration"),
+        ([("0.1 s", "14 deg")], "0 s", "duration"),
+    ],
+)
+def test_bad_histories_name_the_field(climbing, collective, duration, named):
+    with pytest.raises(wf.InputError, match=named):
+        climbing.transient(collective, duration)
+
+
+def test_a_transient_needs_a_wake_that_marches():
+    stand = wf.tunnel(CARADONNA, inflow="dynamic")
+    with pytest.raises(wf.InputError, match="time-marching"):
+        stand.transient([], "0.1 s")
