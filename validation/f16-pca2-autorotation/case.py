@@ -1,7 +1,7 @@
 """Autorotation of the PCA-2 rotor in forward flight."""
 
 import numpy as np
-from wind import DEFAULT, wind
+from wind import DEFAULT, MARCHED, wind
 
 from wakeflight.plotting import style
 from wakeflight.validate import Check, Outcome
@@ -59,6 +59,11 @@ def run(case):
                 Check(f"C_T {text}", stand.ct, ct, 0.10, "-", "relative", gate, note),
                 Check(f"lift over drag {text}", ratio, lift / drag, 0.20, "-", "relative", gate, note),
             ]
+            if name == DEFAULT:
+                marched = at_speed(case, MARCHED, speed, alpha, ours)
+                for what, mine, theirs in (("C_T", marched.ct, stand.ct), ("C_Q", marched.cq, stand.cq)):
+                    label = f"{what} of the wake marched in time at the speed found, beside relaxed, {text}"
+                    checks.append(Check(label, mine, theirs, gate=False, note="; ".join(marched.notes)))
     return Outcome(checks, draw(table, found))
 
 

@@ -117,9 +117,12 @@ def solve_equations(model: StandModel, problem: _core.StandProblem, x0: np.ndarr
     if abs(f[worst]) > EQUATION_TOLERANCE:
         names = core.trim_equations(problem)
         theta = ", ".join(f"{np.degrees(v):.2f}" for v in x[:3])
+        rates = model.condition.mu(model.tip_speed), model.condition.mu_z(model.tip_speed)
+        branches = model.windmill and rates[1] > 0.0 and rates[1] > np.sqrt(8.0) * rates[0]
+        why = "; momentum theory has no steady answer where the windmill brake state begins" if branches else ""
         raise NumericalFailure(
             f"no steady motion of the rotor found: equation {names[worst]} is not met (residual {f[worst]:.3g}); "
-            f"stopped at theta_0, theta_1c, theta_1s = {theta} deg"
+            f"stopped at theta_0, theta_1c, theta_1s = {theta} deg{why}"
         )
     return x
 
