@@ -401,6 +401,10 @@ def tunnel(
     blade_model: Annotated[str, typer.Option("--blade-model", help="lifting-line, weissinger")] = "lifting-line",
     revolutions: Annotated[int | None, typer.Option("--revolutions", help="revolutions of the marching wake")] = None,
     averaged: Annotated[int | None, typer.Option("--averaged", help="of them, the last ones averaged")] = None,
+    then: Annotated[
+        list[str] | None, typer.Option("--then", help='then move the collective: "0.035 s, 12 deg", time and angle')
+    ] = None,
+    duration: Annotated[str | None, typer.Option("--duration", help='how long to follow that, "2 s"')] = None,
     azimuth_step: AzimuthStep = None,
     wake_turns: WakeTurns = None,
     wake_scheme: WakeScheme = None,
@@ -420,6 +424,9 @@ def tunnel(
     conditions = {"speed": speed, "shaft_angle": shaft_angle, "climb": climb, "omega": omega}
     model = configured(rotor or aircraft, inflow, given, conditions) if given else inflow
     pair = [each.strip() for each in flapping.split(",")] if flapping and "," in flapping else flapping
+    if bool(then) != (duration is not None):
+        raise InputError.of("--then, --duration", then or duration, "one needs the other")
+    moved = [tuple(part.strip() for part in each.split(",")) for each in then or []]
     with Progress() as progress:
         result = solve(
             rotor or aircraft,
@@ -445,10 +452,15 @@ def tunnel(
             progress=progress,
             **conditions,
         )
-    print(result.table())
-    result.save(_folder(folder) / "tunnel.nc")
-    written = drawing.write(result.data, folder)
-    print(f"wrote {folder / 'tunnel.nc'}, {', '.join(each.name for each in written)}")
+        print(result.table())
+        result.save(_folder(folder) / "tunnel.nc")
+        written = [folder / "tunnel.nc", *drawing.write(result.data, folder)]
+        if duration is not None:
+            from .results import save
+
+            data = result.transient(moved, duration, progress)
+            written += [save(data, folder / "transient.nc"), drawing.write_transient(data, folder)]
+    print(f"wrote {folder / 'tunnel.nc'}, {', '.join(each.name for each in written[1:])}")
 
 
 def _harmonic(text: str) -> dict[str, Any]:

@@ -63,6 +63,7 @@ def _nothing_starts(monkeypatch):
         (["fly"], "MANEUVER"),
         (["sail"], "sail"),
         (["tunnel", "--collective", "8"], "collective"),
+        (["tunnel", "--then", "0.1 s, 12 deg"], "--duration"),
         (["validate", "--cases", "/nowhere"], "/nowhere"),
         (["validate", "K99", "--cases", "validation"], "K99"),
         (["converge", "azimuth"], "--vary"),

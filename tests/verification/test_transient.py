@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import wakeflight as wf
+from wakeflight.plotting import tunnel as drawing
 from wakeflight.results import load, save
 from wakeflight.trim import resample
 
@@ -60,6 +61,7 @@ def test_thrust_overshoots_a_ramp_and_ends_where_the_stand_is_at_the_new_collect
     assert data.inflow_mean.values[0] < data.inflow_mean.values[-1]
     assert data.wake.dims == ("time", "blade", "age", "xyz")
     assert load(save(data, tmp_path / "transient.nc")).equals(data)
+    assert drawing.write_transient(data, tmp_path).stat().st_size > 10_000
     # the stand keeps its own wake
     assert climbing.transient([("0.01 s", "14 deg")], "0.02 s").ct.values[1] == data.ct.values[1]
 

@@ -95,6 +95,46 @@ def wake(data: xr.Dataset) -> Figure:
     return figure
 
 
+@styled
+def transient(data: xr.Dataset) -> Figure:
+    """Collective, thrust, torque, inflow and flapping over the revolutions of a transient."""
+    figure = style.blank(6.4)
+    panels = figure.subplots(3, 2, sharex=True)
+    turns = data.time * data.attrs["omega"] / (2 * np.pi)
+    rows = (
+        (np.degrees(data.theta_0), "collective at the root [°]"),
+        (1e3 * data.ct, "1000 C$_T$ [–]"),
+        (1e4 * data.cq, "10 000 C$_Q$ [–]"),
+        (data.inflow_mean, "mean inflow λ [–], down +"),
+        (np.degrees(data.flap), "flap of each blade [°], up +"),
+    )
+    for axes, (values, label) in zip(panels.flat, rows, strict=False):
+        if values.ndim == 2:
+            for b in range(values.shape[1]):
+                axes.plot(turns, values[:, b], color=style.COLORS[b % 6], lw=0.9, label=f"blade {b + 1}")
+            axes.legend(ncols=2)
+        else:
+            axes.plot(turns, values, color=style.COLORS[0])
+        axes.set_ylabel(label)
+    at = data.station.values
+    strength = data.circulation.mean("blade")
+    last = panels.flat[-1]
+    for r, color in zip((0.5, 0.75, 0.95), style.COLORS, strict=False):
+        last.plot(turns, strength.interp(station=r), color=color, label=f"r/R = {min(max(r, at[0]), at[-1]):g}")
+    last.set_ylabel("mean circulation [m²/s]")
+    last.legend()
+    for axes in panels[-1]:
+        axes.set_xlabel("revolutions")
+    a = data.attrs
+    figure.suptitle(f"{a['aircraft']}, {a['inflow_model']}: a collective that moves")
+    return figure
+
+
+def write_transient(data: xr.Dataset, folder: Path) -> Path:
+    """Write the figure of a transient beside its result."""
+    return style.save(transient(data), folder / "transient.png")
+
+
 def write(data: xr.Dataset, folder: Path) -> list[Path]:
     """Write the figures that the data allow beside the result."""
     written = [style.save(maps(data), folder / "maps.png"), style.save(sections(data), folder / "sections.png")]
