@@ -64,7 +64,7 @@ class IdaIntegrator:
         self.rtol = rtol
         self.atol = atol_scale * absolute_tolerances(model)
         self._inputs: _core.Inputs | None = None
-        self._linearised = _core.Linearised(model.core)
+        self._linearised = model.linearised()
         self._linearised_at = -np.inf
         self._fresh = np.radians(FRESH) / model.omega
         self._rate: np.ndarray | None = None

@@ -106,6 +106,10 @@ class Model(CompiledRotor):
         )
         return cls(aircraft, condition, inflow, core, data, density, speed_of_sound)
 
+    def linearised(self) -> _core.Linearised:
+        """Room for the derivatives of F."""
+        return _core.Linearised(self.core)
+
     @cached_property
     def layout(self) -> dict[str, Any]:
         """Where the parts of y start."""
