@@ -27,7 +27,9 @@ def body(inertia, gravity):
     for part in ("fuselage", "stabilator", "stabilator_schedule", "fin", "tail_rotor", "interference"):
         data[part] = None
     core = _core.Aircraft(json.dumps(data), 1.0, 340.0, gravity, True, 4, 2, 8, 2, 0.3)
-    return SimpleNamespace(core=core, layout=core.layout(), rotor=core.rotor(), omega=core.rotor()["omega"])
+    rotor = core.rotor()
+    room = {"linearised": lambda: _core.Linearised(core)}
+    return SimpleNamespace(core=core, layout=core.layout(), rotor=rotor, omega=rotor["omega"], **room)
 
 
 INPUTS = _core.Inputs([0.0] * 4, [0.0] * 4, 0.0, None, 0.0, 0.0, vacuum=True)
