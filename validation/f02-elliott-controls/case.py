@@ -2,7 +2,7 @@
 
 import numpy as np
 from elliott import induced
-from wind import wind
+from wind import DEFAULT, MARCHED, wind
 
 from wakeflight.plotting import style
 from wakeflight.validate import Check, Outcome
@@ -16,20 +16,24 @@ def run(case):
     checks, found = [], {}
     for i in KEPT:
         mu, angle = data["mu"][i], data["shaft_angle_deg"][i]
-        stand = wind(
-            case.path("rotors/elliott-althoff.toml"),
-            speed=f"{mu / np.cos(np.radians(angle)) * 190.42} m/s",
-            shaft_angle=f"{angle} deg",
-            ct=data["CT"][i],
-            flapping="zero",
-        )
-        # signs of the report: theta = A0 - A1 cos psi - B1 sin psi
-        for text, ours, theirs in (
-            ("collective at 0.75 R", float(stand.data.theta_75), data["theta0_deg"][i]),
-            ("theta_1c", stand.theta_1c, -data["theta1c_deg"][i]),
-            ("theta_1s", stand.theta_1s, -data["theta1s_deg"][i]),
-        ):
-            checks.append(Check(f"{text} at mu = {mu:g}", np.degrees(ours), theirs, 1.0, "deg"))
+        for name in (MARCHED, DEFAULT):  # the default last: its field is drawn
+            stand = wind(
+                case.path("rotors/elliott-althoff.toml"),
+                name,
+                speed=f"{mu / np.cos(np.radians(angle)) * 190.42} m/s",
+                shaft_angle=f"{angle} deg",
+                ct=data["CT"][i],
+                flapping="zero",
+            )
+            note, gate = ("", True) if name == DEFAULT else (name, False)
+            # signs of the report: theta = A0 - A1 cos psi - B1 sin psi
+            for text, ours, theirs in (
+                ("collective at 0.75 R", float(stand.data.theta_75), data["theta0_deg"][i]),
+                ("theta_1c", stand.theta_1c, -data["theta1c_deg"][i]),
+                ("theta_1s", stand.theta_1s, -data["theta1s_deg"][i]),
+            ):
+                label = f"{text} at mu = {mu:g}"
+                checks.append(Check(label, np.degrees(ours), theirs, 1.0, "deg", gate=gate, note=note))
         psi, r = np.radians(np.arange(0.0, 361.0, 10.0)), np.linspace(0.25, 1.1, 35)
         field = np.array([induced(stand, np.full_like(r, at), r) for at in psi])
         found[mu] = (psi, r, field)

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from .. import _core
 from ..errors import InputError, NumericalFailure
 from ..progress import Progress, Silent
 from .condition import StandCondition
@@ -47,7 +48,7 @@ def on_annuli(model: StandModel, start: Solution, progress: Progress | Silent) -
     return Solution(model, problem, x, inflow_map, circulation)
 
 
-def inflow_of_rings(model: StandModel, problem, x: np.ndarray) -> np.ndarray:
+def inflow_of_rings(model: StandModel, problem: _core.StandProblem, x: np.ndarray) -> np.ndarray:
     """Induced inflow lambda (n_stations,) at which each ring carries the lift of its blade elements.
 
     N_b Omega Gamma = 4 pi F lambda |lambda + lambda_c| (Omega R)^2, Gamma the mean circulation over the revolution at the

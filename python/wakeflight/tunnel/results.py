@@ -251,10 +251,11 @@ class Tunnel:
         """Move the collective in time from here on and follow rotor and wake: a Dataset over time.
 
         collective: pairs (time, collective at the root), text with units, linear between them and held after the last, from
-        the stand's own collective at 0 s: a ramp of 200 deg/s is `[("0.035 s", "12 deg")]` from 5 deg. duration: text.
+        the stand's own collective of its last revolution at 0 s: a ramp of 200 deg/s is `[("0.035 s", "12 deg")]` from 5 deg.
+        duration: text.
 
-        Every azimuth step the blades move by their own equations under the inflow held (Radau IIA), then circulation, wake and
-        inflow are exchanged as in flight; cyclic, wind and rotor speed stay. The stand itself is not changed. Needs a
+        Every azimuth step the blades move by their own equations under the inflow held (Radau IIA), then circulation, wake
+        and inflow are exchanged as in flight; cyclic, wind and rotor speed stay. The stand itself is not changed. Needs a
         time-marching wake. Raises `InputError`, or `NumericalFailure` with what was computed in `.partial`.
         """
         from .transient import transient

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -17,7 +17,11 @@ from .condition import within
 if TYPE_CHECKING:
     import xarray as xr
 
+    from ..exchange import MarchingExchange
     from .results import Tunnel
+
+Motion = tuple[np.ndarray, np.ndarray, np.ndarray]
+"""Modal coordinates, rates and accelerations (n_blades, n_modes)."""
 
 LONGEST = 1000.0
 """Revolutions that a transient may last at most."""
@@ -111,7 +115,7 @@ def transient(
     return data
 
 
-def _march(stand: Tunnel, moved: History, step: float, n_steps: int, kept: Recorder):
+def _march(stand: Tunnel, moved: History, step: float, n_steps: int, kept: Recorder) -> Iterator[int]:
     """March `n_steps`, recording the start and every step."""
     solution, model = stand.solution, stand.model
     core, problem, x = model.core, solution.problem, solution.x
@@ -120,7 +124,7 @@ def _march(stand: Tunnel, moved: History, step: float, n_steps: int, kept: Recor
     periodic = core.trim_motion(problem, x, march.n)
     rows = march.rows(march.step_index)
     q, q_dot = (part[rows] for part in periodic)
-    motion = (q, q_dot, np.zeros_like(q))
+    motion: Motion = (q, q_dot, np.zeros_like(q))
     cyclic = x[1:3]
     for k in range(n_steps + 1):
         t = k * step
@@ -133,13 +137,23 @@ def _march(stand: Tunnel, moved: History, step: float, n_steps: int, kept: Recor
         )
         if k == n_steps:
             return
-        motion = tuple(core.advance_blades(y, psi, motion, controls, rates, march.inflow, step))
+        q, q_dot, q_ddot = core.advance_blades(y, psi, motion, controls, rates, march.inflow, step)
+        motion = (q, q_dot, q_ddot)
         later = (moved.at(t + 2 * step) - ahead) / step
         march.advance(y, np.array([ahead, *cyclic]), np.array([later, 0.0, 0.0]), motion[:2])
         yield k
 
 
-def _record(kept: Recorder, stand: Tunnel, march, passages, t: float, psi, collective: float, motion) -> None:
+def _record(
+    kept: Recorder,
+    stand: Tunnel,
+    march: MarchingExchange,
+    passages: dict[str, np.ndarray],
+    t: float,
+    psi: np.ndarray,
+    collective: float,
+    motion: Motion,
+) -> None:
     model = stand.model
     force, moment = passages["aero_force"].sum(axis=0), passages["aero_moment"].sum(axis=0)
     flap, lead = model.core.equivalent_angles(np.ascontiguousarray(motion[0]))
