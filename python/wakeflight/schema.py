@@ -349,8 +349,12 @@ TRANSIENT: tuple[Variable, ...] = (
         ("hub_force", "N", "force of the rotor on the hub, blades' inertia and weight included, hub axes"),
         ("hub_moment", "N m", "moment of the rotor on the hub centre, hub axes"),
     ),
-    Variable("wake", ("time", "blade", "age", "xyz"), "m", "tip vortices, hub axes"),
-    Variable("tip_circulation", ("time", "blade", "age"), "m2/s", "circulation of the nodes of the tip vortices"),
+    Variable("wake", ("time", "blade", "age", "xyz"), "m", "tip vortices, hub axes", optional=True),
+    *_rows(
+        ("time", "blade", "age"),
+        ("tip_circulation", "m2/s", "circulation of the nodes of the tip vortices"),
+        optional=True,
+    ),
 )
 
 ATTRIBUTES: tuple[Attribute, ...] = (

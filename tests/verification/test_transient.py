@@ -82,7 +82,20 @@ def test_bad_histories_name_the_field(climbing, collective, duration, named):
         climbing.transient(collective, duration)
 
 
-def test_a_transient_needs_a_wake_that_marches():
-    stand = wf.tunnel(CARADONNA, inflow="dynamic")
-    with pytest.raises(wf.InputError, match="time-marching"):
+def test_states_of_inflow_are_carried_from_one_steady_rotor_to_the_other():
+    # dynamic inflow in hover: what is held stays, a ramp overshoots and ends at the thrust of the new collective
+    stand = wf.tunnel("uh60a", ct=0.004, inflow="dynamic")
+    turn = 2 * np.pi / stand.model.omega
+    assert np.ptp(stand.transient([], f"{turn} s").ct.values) < 1e-9
+    target = float(np.degrees(stand.theta_0)) + 5.0
+    data = stand.transient([("0.025 s", f"{target!r} deg")], f"{10 * turn} s")
+    after = wf.tunnel("uh60a", f"{target!r} deg", inflow="dynamic")
+    assert data.ct.values[-1] == pytest.approx(after.ct, rel=2e-3)
+    assert 1.1 < data.ct.values.max() / after.ct < 1.4
+    assert "wake" not in data
+
+
+def test_a_transient_needs_inflow_that_moves():
+    stand = wf.tunnel(CARADONNA, inflow="annular")
+    with pytest.raises(wf.InputError, match="time-marching or dynamic"):
         stand.transient([], "0.1 s")

@@ -255,8 +255,10 @@ class Tunnel:
         duration: text.
 
         Every azimuth step the blades move by their own equations under the inflow held (Radau IIA), then circulation, wake
-        and inflow are exchanged as in flight; cyclic, wind and rotor speed stay. The stand itself is not changed. Needs a
-        time-marching wake. Raises `InputError`, or `NumericalFailure` with what was computed in `.partial`.
+        and inflow are exchanged as in flight, or the states of dynamic inflow carried on by the loads of the instant; cyclic,
+        wind and rotor speed stay. The stand itself is not changed. Needs inflow time-marching or dynamic.
+
+        Raises `InputError`, or `NumericalFailure` with what was computed in `.partial`.
         """
         from .transient import transient
 

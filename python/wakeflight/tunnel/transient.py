@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Collective that moves in time on the stand: blades, circulation and marching wake followed step by step."""
+"""Collective that moves in time on the stand: blades, circulation and inflow followed step by step."""
 
 from __future__ import annotations
 
@@ -13,15 +13,12 @@ from ..errors import InputError, NumericalFailure
 from ..progress import Progress, Silent
 from ..units import quantity
 from .condition import within
+from .moving_inflow import MarchedInflow, Motion, MovingInflow, StatesOfInflow
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from ..exchange import MarchingExchange
     from .results import Tunnel
-
-Motion = tuple[np.ndarray, np.ndarray, np.ndarray]
-"""Modal coordinates, rates and accelerations (n_blades, n_modes)."""
 
 LONGEST = 1000.0
 """Revolutions that a transient may last at most."""
@@ -90,8 +87,8 @@ def transient(
     from ..results import assemble_transient
 
     solution, model = stand.solution, stand.model
-    if solution.march is None:
-        raise InputError.of("inflow", model.inflow.name, "a transient needs a marching wake: inflow time-marching")
+    if solution.march is None and not model.is_dynamic:
+        raise InputError.of("inflow", model.inflow.name, "a transient needs inflow time-marching or dynamic")
     if model.aircraft.discretisation.n_modes and not model.n_harmonics:
         raise InputError.of("n_harmonics", model.n_harmonics, "must be above 0")
     moved = history(collective, float(solution.x[0]))
@@ -107,9 +104,10 @@ def transient(
             progress.advance(1, "")
     except ArithmeticError as reason:
         failure = f"transient on the stand, t = {kept.rows['time'][-1]:.4f} s: {reason}"
-    ages = 2 * np.pi / model.steps_per_revolution * np.arange(kept.rows["wake"][0].shape[1])
-    attributes = {**stand.attributes(), "failure": failure, "step": step}
-    data = assemble_transient({**kept.arrays(), "station": model.stations / stand.radius, "age": ages}, attributes)
+    arrays = {**kept.arrays(), "station": model.stations / stand.radius}
+    if "wake" in arrays:
+        arrays["age"] = 2 * np.pi / model.steps_per_revolution * np.arange(arrays["wake"].shape[2])
+    data = assemble_transient(arrays, {**stand.attributes(), "failure": failure, "step": step})
     if failure:
         raise NumericalFailure(failure, partial=data)
     return data
@@ -119,35 +117,33 @@ def _march(stand: Tunnel, moved: History, step: float, n_steps: int, kept: Recor
     """March `n_steps`, recording the start and every step."""
     solution, model = stand.solution, stand.model
     core, problem, x = model.core, solution.problem, solution.x
-    march = solution.march.copy()
-    y = core.trim_state(problem, x, 0.0)[0]
-    periodic = core.trim_motion(problem, x, march.n)
-    rows = march.rows(march.step_index)
-    q, q_dot = (part[rows] for part in periodic)
+    air: MovingInflow = StatesOfInflow(model, solution) if model.is_dynamic else MarchedInflow(solution)
+    y = np.array([*model.condition.velocity, *model.condition.rates])
+    psi, n = air.psi(), model.steps_per_revolution
+    rows = np.round(psi * n / (2 * np.pi)).astype(int) % n
+    q, q_dot = (part[rows] for part in core.trim_motion(problem, x, n))
     motion: Motion = (q, q_dot, np.zeros_like(q))
     cyclic = x[1:3]
     for k in range(n_steps + 1):
-        t = k * step
-        psi = 2 * np.pi * np.array(march.rows(march.step_index)) / march.n
+        t, psi = k * step, air.psi()
         # the collective is linear over a step: corners of the history are met where steps end
         now, ahead = moved.at(t), moved.at(t + step)
-        controls, rates = [now, *cyclic], [(ahead - now) / step, 0.0, 0.0]
-        _record(
-            kept, stand, march, core.blade_passages(y, psi, motion, controls, rates, march.inflow), t, psi, now, motion
-        )
+        controls, rates = np.array([now, *cyclic]), np.array([(ahead - now) / step, 0.0, 0.0])
+        passages = core.blade_passages(y, psi, motion, controls, rates, air.inflow)
+        _record(kept, stand, air, passages, t, psi, now, motion)
         if k == n_steps:
             return
-        q, q_dot, q_ddot = core.advance_blades(y, psi, motion, controls, rates, march.inflow, step)
+        q, q_dot, q_ddot = core.advance_blades(y, psi, motion, controls, rates, air.inflow, step)
         motion = (q, q_dot, q_ddot)
         later = (moved.at(t + 2 * step) - ahead) / step
-        march.advance(y, np.array([ahead, *cyclic]), np.array([later, 0.0, 0.0]), motion[:2])
+        air.advance(y, np.array([ahead, *cyclic]), np.array([later, 0.0, 0.0]), motion)
         yield k
 
 
 def _record(
     kept: Recorder,
     stand: Tunnel,
-    march: MarchingExchange,
+    air: MovingInflow,
     passages: dict[str, np.ndarray],
     t: float,
     psi: np.ndarray,
@@ -172,9 +168,8 @@ def _record(
         flap=flap,
         lead=lead,
         beta_0=np.mean(flap),
-        inflow_mean=model.disk_mean(march.inflow[:, :n]),
-        inflow=march.inflow[:, :n],
+        inflow_mean=model.disk_mean(air.inflow[:, :n]),
+        inflow=air.inflow[:, :n],
         **{name: passages[name] for name in ("circulation", "cl", "alpha")},
-        wake=march.position(),
-        tip_circulation=march.core.marker_circulation(),
+        **air.kept(),
     )
