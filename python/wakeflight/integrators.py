@@ -45,16 +45,16 @@ def consistent_rate(model: Model, t: float, y: np.ndarray, inputs: _core.Inputs)
     return model.core.consistent_rate(t, y, inputs)
 
 
-FRESH = 4.0
-"""Azimuth [deg] over which IDA's derivatives of F serve: with 5 and more the error of the flapping doubles."""
+KEPT = {"dF/dy": 10.0, "dF/dy_dot": 1.5}
+"""Azimuth [deg] over which IDA's derivatives of F serve; dF/dy_dot costs a seventh of dF/dy and counts most."""
 
 
 class IdaIntegrator:
     """SUNDIALS IDA (variable step, variable order BDF) with exact derivatives [hindmarsh2005].
 
-    F is linearised where a coupling step begins and every few degrees from there; each linearisation serves all step sizes
-    and orders meanwhile (IDA asks for dF/dy + c dF/dy_dot whenever c changes, some five times a coupling step). Derivatives
-    are the means by which IDA solves its equations: where they do not suffice, it takes a shorter step.
+    IDA asks for dF/dy + c dF/dy_dot whenever its step or order changes, some five times a coupling step. F is linearised
+    where a coupling step begins, and its inertia again every few degrees from there (`KEPT`). Derivatives are the means by
+    which IDA solves its equations: where they do not suffice, it takes a shorter step.
     """
 
     method = "BDF of variable step and order (SUNDIALS IDA)"
@@ -65,18 +65,30 @@ class IdaIntegrator:
         self.atol = atol_scale * absolute_tolerances(model)
         self._inputs: _core.Inputs | None = None
         self._linearised = model.linearised()
-        self._linearised_at = -np.inf
-        self._fresh = np.radians(FRESH) / model.omega
+        self._found_at = dict.fromkeys(KEPT, -np.inf)
+        # a hair more, so that a step of as many degrees counts as that
+        self._kept = {name: np.radians(angle) * (1.0 + 1e-6) / model.omega for name, angle in KEPT.items()}
         self._rate: np.ndarray | None = None
         self._statistics = {"residual_evaluations": 0, "jacobians": 0}
 
     def consistent(self, t: float, y: np.ndarray, inputs: _core.Inputs) -> np.ndarray:
         """y_dot that satisfies F = 0 at (t, y); the derivatives found for it serve the step that follows."""
         guess = np.zeros(y.size) if self._rate is None else self._rate
-        self._rate = self._linearised.consistent(self.model.core, t, y, guess, inputs)
-        self._linearised_at = t
-        self._statistics["jacobians"] += 1
+        renew = self._found(t) == "dF/dy"
+        self._found_at["dF/dy_dot"] = t
+        self._rate = self._linearised.consistent(self.model.core, t, y, guess, inputs, renew)
         return self._rate
+
+    def _found(self, t: float) -> str | None:
+        """Which derivatives are to be found at `t`: dF/dy and with it all, dF/dy_dot alone, or none."""
+        for name, kept in self._kept.items():
+            if t - self._found_at[name] > kept:
+                self._found_at["dF/dy_dot"] = t
+                if name == "dF/dy":
+                    self._found_at[name] = t
+                    self._statistics["jacobians"] += 1
+                return name
+        return None
 
     def start(self, t: float, y: np.ndarray, y_dot: np.ndarray) -> None:
         """Begin at a consistent state."""
@@ -98,10 +110,11 @@ class IdaIntegrator:
         self.model.core.residual(t, y, y_dot, self._inputs, f)
 
     def _jacobian(self, t: float, y: np.ndarray, y_dot: np.ndarray, f: np.ndarray, c_j: float, out: np.ndarray) -> None:
-        if t - self._linearised_at > self._fresh:
+        which = self._found(t)
+        if which == "dF/dy":
             self._linearised.renew(self.model.core, t, y, y_dot, self._inputs)
-            self._linearised_at = t
-            self._statistics["jacobians"] += 1
+        elif which == "dF/dy_dot":
+            self._linearised.renew_mass(self.model.core, t, y, self._inputs)
         self._linearised.matrix(c_j, out)
 
     def advance_to(self, t: float, inputs: _core.Inputs) -> None:
@@ -150,6 +163,8 @@ class FixedIntegrator:
     """
 
     NEWTON_SHARE = 0.3
+    KEPT = 20.0
+    """Azimuth [deg] over which dF/dy is kept."""
 
     def __init__(self, model: Model, rtol: float = 1e-5, atol_scale: float = 1.0, parts: int = 1):
         self.model, self.rtol, self.parts = model, rtol, parts
@@ -173,7 +188,7 @@ class FixedIntegrator:
         if self.explicit:
             self._solver = _core.ExplicitStep(core, t, y, self.rtol, self.atol)
         else:
-            self._solver = _core.FixedStep(core, t, y, self.rtol, self.atol, self.NEWTON_SHARE)
+            self._solver = _core.FixedStep(core, t, y, self.rtol, self.atol, self.NEWTON_SHARE, np.radians(self.KEPT))
         self._y = y
 
     def consistent(self, t: float, y: np.ndarray, inputs: _core.Inputs) -> np.ndarray:

@@ -62,6 +62,19 @@ def test_newton_leaves_no_more_than_it_was_asked_to(smooth):
     assert 1e-3 < np.sqrt(np.mean(((loose - tight) / weights) ** 2)) < 18.0
 
 
+def test_keeping_derivatives_changes_nothing_that_the_tolerance_asks_for(baseline_dynamic, monkeypatch):
+    flights = []
+    for kept in (0.0, 20.0):
+        monkeypatch.setattr(FixedIntegrator, "KEPT", kept)
+        flights.append(wf.fly(baseline_dynamic, wf.roll_reversal(), revolutions=6, integrator="fixed").data)
+    # a third of the linearisations, hardly more iterations: the dampers' kinks, which would cost them, are always new
+    assert flights[1].attrs["jacobians"] <= 0.4 * flights[0].attrs["jacobians"]
+    assert flights[1].attrs["newton_iterations"] < 1.1 * flights[0].attrs["newton_iterations"]
+    for name in ("p", "q", "beta_1c", "ct"):
+        a, b = (flight[name].values for flight in flights)
+        assert np.max(np.abs(a - b)) < 5e-4 * np.max(np.abs(a)), name
+
+
 def test_the_rate_it_finds_satisfies_the_equations(baseline_dynamic):
     start, model = baseline_dynamic, baseline_dynamic.model
     y, inputs, f = start.state(), start.inputs(), np.empty(model.layout["size"])

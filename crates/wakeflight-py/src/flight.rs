@@ -39,8 +39,10 @@ struct PyFixedStep {
 
 #[pymethods]
 impl PyFixedStep {
-    /// At state `y` and time `t` [s], with tolerances; `newton_share` of them is what the Newton iteration may leave.
+    /// At state `y` and time `t` [s], with tolerances; `newton_share` of them is what the Newton iteration may leave; dF/dy is
+    /// kept over an azimuth of `kept` [rad].
     #[new]
+    #[pyo3(signature = (aircraft, t, y, rtol, atol, newton_share, kept=0.0))]
     fn new(
         aircraft: &PyAircraft,
         t: f64,
@@ -48,9 +50,11 @@ impl PyFixedStep {
         rtol: f64,
         atol: PyReadonlyArray1<f64>,
         newton_share: f64,
+        kept: f64,
     ) -> PyResult<Self> {
         let layout = aircraft.inner.layout;
-        Ok(Self { inner: FixedStep::new(layout, t, y.as_slice()?, rtol, atol.as_slice()?, newton_share) })
+        let solver = FixedStep::new(layout, t, y.as_slice()?, rtol, atol.as_slice()?, newton_share);
+        Ok(Self { inner: solver.keeping(kept) })
     }
 
     /// Linearises at the present state; the rate then satisfies F = 0 with `inputs`.
@@ -155,7 +159,8 @@ impl PyLinearised {
         Self { inner: Linearised::new(aircraft.inner.layout) }
     }
 
-    /// Linearises at (t, y); y_dot that satisfies F = 0 there, from the guess `y_dot`.
+    /// y_dot that satisfies F = 0 at (t, y), from the guess `y_dot`; linearises there (`renew`), or finds dF/dy_dot alone.
+    #[allow(clippy::too_many_arguments, reason = "the arguments of F")]
     fn consistent<'py>(
         &mut self,
         py: Python<'py>,
@@ -164,11 +169,16 @@ impl PyLinearised {
         y: PyReadonlyArray1<f64>,
         y_dot: PyReadonlyArray1<f64>,
         inputs: &PyInputs,
+        renew: bool,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        let mut rate = y_dot.as_slice()?.to_vec();
-        self.inner
-            .consistent(&aircraft.inner, t, y.as_slice()?, &mut rate, &inputs.0)
-            .map_err(|e| PyArithmeticError::new_err(e.to_string()))?;
+        let (y, mut rate) = (y.as_slice()?, y_dot.as_slice()?.to_vec());
+        let (linear, aircraft) = (&mut self.inner, &aircraft.inner);
+        let solved = if renew {
+            linear.consistent(aircraft, t, y, &mut rate, &inputs.0)
+        } else {
+            linear.consistent_by_mass(aircraft, t, y, &mut rate, &inputs.0)
+        };
+        solved.map_err(|e| PyArithmeticError::new_err(e.to_string()))?;
         Ok(rate.into_pyarray(py))
     }
 
@@ -182,6 +192,18 @@ impl PyLinearised {
         inputs: &PyInputs,
     ) -> PyResult<()> {
         self.inner.renew(&aircraft.inner, t, y.as_slice()?, y_dot.as_slice()?, &inputs.0);
+        Ok(())
+    }
+
+    /// Finds dF/dy_dot at (t, y); dF/dy is left as it was.
+    fn renew_mass(
+        &mut self,
+        aircraft: &PyAircraft,
+        t: f64,
+        y: PyReadonlyArray1<f64>,
+        inputs: &PyInputs,
+    ) -> PyResult<()> {
+        self.inner.renew_mass(&aircraft.inner, t, y.as_slice()?, &inputs.0);
         Ok(())
     }
 

@@ -2,17 +2,20 @@
 //!
 //! A blade feels its own coordinates and the body's states; the body feels a blade through its loads on the hub
 //! (and the flapping they share). So each blade is differentiated along its own coordinates and the body's alone, the
-//! body along its states and the twelve loads, and the chain rule joins the two.
+//! body along its states and the twelve loads, and the chain rule joins the two. What acts by accelerations (their own
+//! derivatives, and the attitude, by the weight) follows from the mass matrices of the blades, which are not differentiated.
 
 use super::model::{Aircraft, HeldInflow, Inputs};
 use super::residual::RotorLoads;
-use super::state::Layout;
+use super::state::{Layout, body_vector};
 use crate::blade::MAX_MODES;
 use crate::blade::kinematics::ModalMotion;
 use crate::blade::loads::{BladeInflow, BladeLoads};
+use crate::blade::mass_matrix::BladeMass;
 use crate::numerics::frames::Vec3;
 use crate::numerics::scalar::{Dual, Real};
 use crate::numerics::wide::{DIRECTIONS, Directional, Task, differentiate};
+use crate::rotor::hub::DamperSlopes;
 
 type D = Dual<DIRECTIONS>;
 
@@ -48,6 +51,8 @@ impl Block {
 pub struct BladeSlopes {
     /// Modal rows by own coordinates and rates (n_modes, 2 n_modes).
     pub own: Block,
+    /// The same without the lag damper.
+    undamped: Block,
     /// Modal rows by own modal accelerations (n_modes, n_modes).
     pub own_dot: Block,
     /// Modal rows by body states (n_modes, n_body).
@@ -65,7 +70,7 @@ pub struct BladeSlopes {
     loads_by_body_dot: Block,
 }
 
-/// dF/dy and dF/dy_dot in blocks, with the room to find them: made once, filled again and again.
+/// dF/dy and dF/dy_dot of one aircraft in blocks, with the room to find them: made once, filled again and again.
 ///
 /// The equations q_dot = s of the modal coordinates are left to whoever assembles a matrix.
 #[derive(Clone, Debug)]
@@ -79,6 +84,11 @@ pub struct Slopes {
     pub body_y: Block,
     /// Body rows by rates of body states (n_body, n_body).
     pub body_dot: Block,
+    /// The same without the blades.
+    body_alone_dot: Block,
+    airframe_known: bool,
+    /// Acceleration of the hub less gravity and angular acceleration, hub axes, by the body's (6, 6).
+    hub_by_body: Option<[[f64; 6]; 6]>,
     by_loads: Block,
     by_flapping: Vec<f64>,
     y: Vec<D>,
@@ -86,30 +96,25 @@ pub struct Slopes {
     f: Vec<D>,
 }
 
-/// A direction: an entry of y, or of y_dot.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Direction {
-    State(usize),
-    Rate(usize),
+impl BladeSlopes {
+    /// Own derivatives with those of the lag damper.
+    fn add_damper(&mut self, damper: &DamperSlopes) {
+        let columns = self.own.columns;
+        for (i, row) in damper.iter().enumerate().take(columns / 2) {
+            for (j, slope) in row.iter().enumerate().take(columns) {
+                self.own.set(i, j, self.undamped.at(i, j) + slope);
+            }
+        }
+    }
 }
 
-/// Directions that a blade feels: its own coordinates and rates and the body's motion, or (`accelerations`) what acts
-/// through accelerations alone: attitude by the weight, modal accelerations, the body's rates of state.
-fn directions(l: &Layout, b: usize, accelerations: bool) -> ([Direction; MOST_DIRECTIONS], usize) {
-    let mut all = [Direction::State(0); MOST_DIRECTIONS];
+/// Entries of y along which a blade is differentiated: its own coordinates and rates, the body's motion, the inflow.
+fn directions(l: &Layout, b: usize) -> ([usize; MOST_DIRECTIONS], usize) {
+    let mut all = [0; MOST_DIRECTIONS];
     let mut n = 0;
-    let mut push = |direction| {
-        all[n] = direction;
+    for i in (l.modal(b).start..l.modal_rate(b).end).chain(0..Layout::RATES.end).chain(l.inflow()) {
+        all[n] = i;
         n += 1;
-    };
-    if accelerations {
-        Layout::ATTITUDE.map(Direction::State).for_each(&mut push);
-        l.modal_rate(b).map(Direction::Rate).for_each(&mut push);
-        (0..Layout::RATES.end).map(Direction::Rate).for_each(&mut push);
-    } else {
-        (l.modal(b).start..l.modal_rate(b).end).map(Direction::State).for_each(&mut push);
-        (0..Layout::RATES.end).map(Direction::State).for_each(&mut push);
-        l.inflow().map(Direction::State).for_each(&mut push);
     }
     (all, n)
 }
@@ -125,6 +130,7 @@ impl Slopes {
         let n = body.len();
         let blade = BladeSlopes {
             own: Block::new(m, 2 * m),
+            undamped: Block::new(m, 2 * m),
             own_dot: Block::new(m, m),
             by_body: Block::new(m, n),
             by_body_dot: Block::new(m, n),
@@ -139,6 +145,9 @@ impl Slopes {
             blades: vec![blade; layout.n_blades],
             body_y: Block::new(n, n),
             body_dot: Block::new(n, n),
+            body_alone_dot: Block::new(n, n),
+            airframe_known: false,
+            hub_by_body: None,
             by_loads: Block::new(n, N_LOADS),
             by_flapping: vec![0.0; n],
             y: vec![D::zero(); layout.len()],
@@ -169,31 +178,80 @@ impl Slopes {
     }
 
     /// Keeps the derivatives of a blade's modal rows and loads along `directions`.
-    fn keep(&mut self, b: usize, directions: &[Direction], table: &LoadSlopes) {
+    fn keep(&mut self, b: usize, directions: &[usize], table: &LoadSlopes) {
         let (m, own) = (self.layout.n_modes, self.layout.modal(b).start);
-        for (lane, &direction) in directions.iter().enumerate() {
-            let (is_state, i) = match direction {
-                Direction::State(i) => (true, i),
-                Direction::Rate(i) => (false, i),
-            };
+        for (lane, &i) in directions.iter().enumerate() {
             let is_own = (own..own + 2 * m).contains(&i);
-            let column = match (is_own, is_state) {
-                (true, true) => i - own,
-                (true, false) => i - own - m,
-                (false, _) => self.body_index(i),
-            };
+            let column = if is_own { i - own } else { self.body_index(i) };
             let blade = &mut self.blades[b];
-            let (rows, sums) = match (is_own, is_state) {
-                (true, true) => (&mut blade.own, &mut blade.loads),
-                (true, false) => (&mut blade.own_dot, &mut blade.loads_dot),
-                (false, true) => (&mut blade.by_body, &mut blade.loads_by_body),
-                (false, false) => (&mut blade.by_body_dot, &mut blade.loads_by_body_dot),
+            let (rows, sums) = if is_own {
+                (&mut blade.undamped, &mut blade.loads)
+            } else {
+                (&mut blade.by_body, &mut blade.loads_by_body)
             };
             for k in 0..m {
                 rows.set(k, column, table.modal[k][lane]);
             }
             for (k, load) in table.loads.iter().enumerate() {
                 sums.set(k, column, load[lane]);
+            }
+        }
+    }
+
+    /// Keeps what a blade's mass says: loads are minus its products with the accelerations. `weight_by_attitude`:
+    /// derivatives of the hub's acceleration less gravity, hub axes, by the quaternion.
+    fn keep_mass(
+        &mut self,
+        b: usize,
+        mass: f64,
+        blade_mass: &BladeMass<f64>,
+        hub_by_body: &[[f64; 6]; 6],
+        weight_by_attitude: &[[f64; 3]; 4],
+    ) {
+        let m = self.layout.n_modes;
+        let blade = &mut self.blades[b];
+        let first = blade_mass.first_moment.array();
+        let [x, y, z] = first;
+        // force by angular acceleration, -first x, and its transpose
+        let cross = [[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]];
+        let inertia = blade_mass.inertia.map(Vec3::array);
+        // rows force, moment by columns acceleration, angular acceleration of the hub
+        let mut hub = [[0.0; 6]; 6];
+        for i in 0..3 {
+            hub[i][i] = mass;
+            for j in 0..3 {
+                hub[i][3 + j] = cross[i][j];
+                hub[3 + j][i] = cross[i][j];
+                hub[3 + i][3 + j] = inertia[j][i];
+            }
+        }
+        for (k, column) in (0..Layout::RATES.end).enumerate() {
+            for (i, row) in hub.iter().enumerate() {
+                let sum: f64 = (0..6).map(|j| row[j] * hub_by_body[j][k]).sum();
+                blade.loads_by_body_dot.set(i, column, -sum);
+            }
+        }
+        for (k, by_acceleration) in weight_by_attitude.iter().enumerate() {
+            let column = Layout::ATTITUDE.start + k;
+            for (i, row) in hub.iter().enumerate() {
+                let sum: f64 = (0..3).map(|j| row[j] * by_acceleration[j]).sum();
+                blade.loads_by_body.set(i, column, -sum);
+            }
+        }
+        for i in 0..m {
+            let (force, moment) = (blade_mass.force[i].array(), blade_mass.moment[i].array());
+            let shared: [f64; 6] = std::array::from_fn(|k| if k < 3 { force[k] } else { moment[k - 3] });
+            for j in 0..m {
+                blade.own_dot.set(i, j, -blade_mass.own[i][j]);
+            }
+            for (k, value) in shared.iter().enumerate() {
+                blade.loads_dot.set(k, i, -value);
+                let sum: f64 = (0..6).map(|j| shared[j] * hub_by_body[j][k]).sum();
+                blade.by_body_dot.set(i, k, -sum);
+            }
+            for (k, by_acceleration) in weight_by_attitude.iter().enumerate() {
+                let sum: f64 = (0..3).map(|j| shared[j] * by_acceleration[j]).sum();
+                blade.by_body.set(i, Layout::ATTITUDE.start + k, -sum);
             }
         }
     }
@@ -248,8 +306,7 @@ struct BladePass<'a> {
     y_dot: &'a [f64],
     inputs: &'a Inputs,
     blade: usize,
-    directions: &'a [Direction],
-    inertia_only: bool,
+    directions: &'a [usize],
     table: &'a mut LoadSlopes,
 }
 
@@ -278,29 +335,26 @@ impl Task for BladePass<'_> {
             modal.q_dot[i] = S::cst(self.y[own + m + i]);
             modal.q_ddot[i] = S::cst(self.y_dot[own + m + i]);
         }
-        for (lane, direction) in self.directions.iter().enumerate() {
-            let number = match *direction {
-                Direction::State(i) if i < body.len() => &mut body[i],
-                Direction::State(i) if l.inflow().contains(&i) => &mut disk[i - l.inflow().start],
-                Direction::State(i) if i < own + m => &mut modal.q[i - own],
-                Direction::State(i) => &mut modal.q_dot[i - own - m],
-                Direction::Rate(i) if i < body_dot.len() => &mut body_dot[i],
-                Direction::Rate(i) => &mut modal.q_ddot[i - own - m],
+        for (lane, &i) in self.directions.iter().enumerate() {
+            let number = if i < body.len() {
+                &mut body[i]
+            } else if l.inflow().contains(&i) {
+                &mut disk[i - l.inflow().start]
+            } else if i < own + m {
+                &mut modal.q[i - own]
+            } else {
+                &mut modal.q_dot[i - own - m]
             };
             number.set_slope(lane, 1.0);
         }
         let hub = a.hub_motion(&body, &body_dot);
         let psi = a.rotor.azimuth(a.rotor.omega * self.t, self.blade);
         let control = a.blade_pitch(self.inputs, self.t, psi);
-        let loads = if self.inertia_only {
-            a.rotor.blade_inertia(&hub, psi, &modal, &control)
-        } else {
-            let inflow = match self.inputs.inflow {
-                HeldInflow::Dynamic => BladeInflow::Disk(disk),
-                _ => a.blade_inflow::<S>(&[], self.inputs, self.blade),
-            };
-            a.rotor.blade_loads(a.air, &hub, psi, &modal, &control, &inflow)
+        let inflow = match self.inputs.inflow {
+            HeldInflow::Dynamic => BladeInflow::Disk(disk),
+            _ => a.blade_inflow::<S>(&[], self.inputs, self.blade),
         };
+        let loads = a.rotor.undamped_loads(a.air, &hub, psi, &modal, &control, &inflow);
         for i in 0..m {
             self.table.modal[i] = loads.modal[i].slopes();
         }
@@ -332,25 +386,81 @@ impl Aircraft {
 
     /// dF/dy and dF/dy_dot at (t, y, y_dot).
     pub fn slopes(&self, t: f64, y: &[f64], y_dot: &[f64], inputs: &Inputs, slopes: &mut Slopes) {
-        self.fill(t, y, y_dot, inputs, &[true, false], slopes);
-    }
-
-    /// dF/dy_dot alone, which inertia gives at a third of the cost; dF/dy is left as it was.
-    pub fn mass_slopes(&self, t: f64, y: &[f64], inputs: &Inputs, slopes: &mut Slopes) {
-        self.fill(t, y, &vec![0.0; y.len()], inputs, &[true], slopes);
-    }
-
-    fn fill(&self, t: f64, y: &[f64], y_dot: &[f64], inputs: &Inputs, passes: &[bool], slopes: &mut Slopes) {
         slopes.set_point(y, y_dot);
         let mut rotor = RotorLoads::sum(&[]);
         for b in 0..self.rotor.n_blades {
-            rotor.add(&self.blade_slopes(t, y, y_dot, inputs, b, passes, slopes));
+            rotor.add(&self.blade_slopes(t, y, y_dot, inputs, b, slopes));
         }
         self.body_slopes(t, y, inputs, &rotor, slopes);
+        self.masses(t, y, inputs, slopes);
         self.join(t, slopes);
+        self.join_masses(slopes);
     }
 
-    /// Derivatives of one blade: all loads by what has no acceleration in it, inertia alone by the rest.
+    /// dF/dy_dot and what the lag dampers and the blades' weight have in dF/dy, at a small part of the cost; the rest is left as
+    /// it was. The dampers belong here because their force has kinks.
+    pub fn mass_slopes(&self, t: f64, y: &[f64], inputs: &Inputs, slopes: &mut Slopes) {
+        if !slopes.airframe_known {
+            // the airframe's own inertia and the way of loads to its balance, once
+            slopes.set_point(y, &vec![0.0; y.len()]);
+            self.body_slopes(t, y, inputs, &RotorLoads::sum(&[]), slopes);
+        }
+        self.masses(t, y, inputs, slopes);
+        self.join_masses(slopes);
+    }
+
+    /// Mass matrices of the blades, their dampers, and what attitude does by the weight.
+    fn masses(&self, t: f64, y: &[f64], inputs: &Inputs, slopes: &mut Slopes) {
+        let hub_by_body = *slopes.hub_by_body.get_or_insert_with(|| self.hub_by_body());
+        let no_rate = [Dual::<4>::zero(); Layout::RATES.end];
+        let body: [Dual<4>; Layout::POSITION.end] = std::array::from_fn(|i| {
+            let number = Dual::cst(y[i]);
+            if Layout::ATTITUDE.contains(&i) {
+                Dual::variable(y[i], i - Layout::ATTITUDE.start)
+            } else {
+                number
+            }
+        });
+        let acceleration = self.hub_motion(&body, &no_rate).acceleration_less_gravity.array();
+        let by_attitude = std::array::from_fn(|k| acceleration.map(|a| a.eps[k]));
+        // accelerations are in none of it
+        let still = y;
+        let n = self.rotor.n_blades;
+        let mass = self.rotor.blade.mass;
+        for first in (0..n).step_by(4) {
+            // fewer than four left: the last stands in for those that are not there
+            let poses = std::array::from_fn(|k| {
+                let b = (first + k).min(n - 1);
+                let psi = self.rotor.azimuth(self.rotor.omega * t, b);
+                (psi, self.modal_motion(y, still, b), self.blade_pitch::<f64>(inputs, t, psi))
+            });
+            let masses = self.rotor.four_mass_matrices(&poses);
+            for (b, (blade, (_, modal, control))) in (first..n).zip(masses.iter().zip(&poses)) {
+                slopes.keep_mass(b, mass, blade, &hub_by_body, &by_attitude);
+                slopes.blades[b].add_damper(&self.rotor.damper_slopes(modal, control));
+            }
+        }
+    }
+
+    /// Acceleration of the hub less gravity and angular acceleration, hub axes, by (v_dot, omega_dot) of the body.
+    fn hub_by_body(&self) -> [[f64; 6]; 6] {
+        let nothing = Vec3::zero();
+        let mut by_body = [[0.0; 6]; 6];
+        for k in 0..6 {
+            let mut unit = [0.0; 6];
+            unit[k] = 1.0;
+            let (v_dot, omega_dot) = (body_vector(&unit, 0..3), body_vector(&unit, 3..6));
+            let hub = self.rotor.hub_motion(nothing, nothing, v_dot, omega_dot, nothing);
+            let (a, w) = (hub.acceleration_less_gravity.array(), hub.omega_dot.array());
+            for i in 0..3 {
+                by_body[i][k] = a[i];
+                by_body[3 + i][k] = w[i];
+            }
+        }
+        by_body
+    }
+
+    /// Derivatives of one blade's loads by everything but accelerations and attitude.
     fn blade_slopes(
         &self,
         t: f64,
@@ -358,29 +468,17 @@ impl Aircraft {
         y_dot: &[f64],
         inputs: &Inputs,
         b: usize,
-        passes: &[bool],
         slopes: &mut Slopes,
     ) -> BladeLoads<f64> {
         let mut table =
             LoadSlopes { modal: [[0.0; DIRECTIONS]; MAX_MODES], loads: [[0.0; DIRECTIONS]; N_LOADS] };
         let mut loads = BladeLoads::zero();
-        for &inertia_only in passes {
-            let (all, n) = directions(&self.layout, b, inertia_only);
-            for directions in all[..n].chunks(DIRECTIONS) {
-                let pass = BladePass {
-                    aircraft: self,
-                    t,
-                    y,
-                    y_dot,
-                    inputs,
-                    blade: b,
-                    directions,
-                    inertia_only,
-                    table: &mut table,
-                };
-                loads = differentiate(pass);
-                slopes.keep(b, directions, &table);
-            }
+        let (all, n) = directions(&self.layout, b);
+        for directions in all[..n].chunks(DIRECTIONS) {
+            let pass =
+                BladePass { aircraft: self, t, y, y_dot, inputs, blade: b, directions, table: &mut table };
+            loads = differentiate(pass);
+            slopes.keep(b, directions, &table);
         }
         loads
     }
@@ -389,14 +487,12 @@ impl Aircraft {
     fn body_slopes(&self, t: f64, y: &[f64], inputs: &Inputs, rotor: &RotorLoads<f64>, slopes: &mut Slopes) {
         let n = slopes.body.len();
         let beta_1c = self.flap_multiblade(t, y)[0];
+        // the airframe's own inertia does not change: found once
+        let n_rates = if slopes.airframe_known { 0 } else { Layout::RATES.end };
         // rows of kinematics and inflow hold their own rate alone
-        for i in 0..n {
-            slopes.body_dot.values[i * n..(i + 1) * n].fill(0.0);
-            if i >= Layout::RATES.end {
-                slopes.body_dot.set(i, i, 1.0);
-            }
+        for i in Layout::RATES.end..n {
+            slopes.body_alone_dot.set(i, i, 1.0);
         }
-        let n_rates = Layout::RATES.end;
         let n_directions = n + n_rates + N_LOADS + 1;
         for first in (0..n_directions).step_by(DIRECTIONS) {
             let lanes = DIRECTIONS.min(n_directions - first);
@@ -423,7 +519,7 @@ impl Aircraft {
                     if k < n {
                         slopes.body_y.set(i, k, slope);
                     } else if k < n + n_rates {
-                        slopes.body_dot.set(i, k - n, slope);
+                        slopes.body_alone_dot.set(i, k - n, slope);
                     } else if k < n + n_rates + N_LOADS {
                         slopes.by_loads.set(i, k - n - n_rates, slope);
                     } else {
@@ -437,6 +533,7 @@ impl Aircraft {
                 }
             }
         }
+        slopes.airframe_known = true;
     }
 
     /// Chain rule: what the blades' loads carry of the blades' and the body's own motion into the body rows.
@@ -447,13 +544,20 @@ impl Aircraft {
             let (_, c) = self.rotor.azimuth(self.rotor.omega * t, b).sin_cos();
             let share = self.rotor.flap_per_coordinate() * 2.0 * c / self.rotor.n_blades as f64;
             product(&slopes.by_loads, &blade.loads, &mut blade.on_body, false);
-            product(&slopes.by_loads, &blade.loads_dot, &mut blade.on_body_dot, false);
             product(&slopes.by_loads, &blade.loads_by_body, &mut slopes.body_y, true);
-            product(&slopes.by_loads, &blade.loads_by_body_dot, &mut slopes.body_dot, true);
             for i in 0..n {
                 let direct = blade.on_body.at(i, flap) + slopes.by_flapping[i] * share;
                 blade.on_body.set(i, flap, direct);
             }
+        }
+    }
+
+    /// The same for what acts by accelerations.
+    fn join_masses(&self, slopes: &mut Slopes) {
+        slopes.body_dot.values.copy_from_slice(&slopes.body_alone_dot.values);
+        for blade in &mut slopes.blades {
+            product(&slopes.by_loads, &blade.loads_dot, &mut blade.on_body_dot, false);
+            product(&slopes.by_loads, &blade.loads_by_body_dot, &mut slopes.body_dot, true);
         }
     }
 }

@@ -148,6 +148,10 @@ impl<S: Real> Carrier<S> {
         }
     }
     #[inline(always)]
+    pub(super) fn to_blade(&self, v: Vec3<S, Hub>) -> Vec3<S, BladeAxes> {
+        turned(&self.to_blade, v)
+    }
+    #[inline(always)]
     pub(super) fn to_hub(&self, v: Vec3<S, BladeAxes>) -> Vec3<S, Hub> {
         let m = &self.to_blade;
         Vec3::new(
@@ -172,7 +176,7 @@ fn turned<S: Real>(m: &[[S; 3]; 3], v: Vec3<S, Hub>) -> Vec3<S, BladeAxes> {
 
 /// Inertia about the principal axes t, c, n, times `v`.
 #[inline(always)]
-fn inertia_times<S: Real>(
+pub(super) fn inertia_times<S: Real>(
     inertia: &[f64; 3],
     m: &SectionMotion<S>,
     v: Vec3<S, BladeAxes>,

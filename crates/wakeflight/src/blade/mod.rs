@@ -8,6 +8,7 @@ pub mod inertia;
 pub mod jet;
 pub mod kinematics;
 pub mod loads;
+pub mod mass_matrix;
 pub mod model;
 pub mod modes;
 pub mod quadrature;

@@ -1,13 +1,14 @@
-//! Fixed steps of Radau IIA on F(y_dot, y, u; t) = 0, with one exact linearisation per step.
+//! Fixed steps of Radau IIA on F(y_dot, y, u; t) = 0, with exact derivatives.
 //!
-//! The stages solve F(t_i, y + Z_i, K_i) = 0 by a modified Newton iteration: the derivatives are those of the start of
-//! the step. It ends when what it still lacks, |dZ| theta/(1 - theta) with the contraction theta seen, is below a share
-//! of the weights rtol |y| + atol in the root mean square [hairer1996, Sec. IV.8]. Where it does not contract, the step
-//! is halved.
+//! The stages solve F(t_i, y + Z_i, K_i) = 0 by a modified Newton iteration: dF/dy_dot is that of the start of the step,
+//! which also gives the consistent rate there, dF/dy may be somewhat older. It ends when what it still lacks, |dZ| theta/(1 - theta) with the contraction theta seen, is below a share
+//! of the weights rtol |y| + atol in the root mean square [hairer1996, Sec. IV.8]. Where it does not contract, dF/dy is
+//! found anew, and where that does not help the step is halved.
 
 use super::blocks::{Factor, Singular};
 use super::linearised::Linearised;
 use super::radau::{Radau, STAGES};
+use crate::aircraft::jacobian::Slopes;
 use crate::aircraft::model::{Aircraft, Inputs};
 use crate::aircraft::state::Layout;
 use nalgebra::Complex;
@@ -42,7 +43,7 @@ pub struct StepFailure {
 pub struct Counters {
     /// Evaluations of F.
     pub residual_evaluations: u64,
-    /// Linearisations.
+    /// Times dF/dy was found.
     pub jacobians: u64,
     /// Factorisations of the pair of systems of a step.
     pub factorisations: u64,
@@ -62,11 +63,15 @@ pub struct FixedStep {
     atol: Vec<f64>,
     /// Share of the weights that the Newton iteration may leave.
     newton_share: f64,
+    /// Azimuth over which dF/dy is kept [rad]; dF/dy_dot is found anew for every step.
+    kept: f64,
     t: f64,
     y: Vec<f64>,
     y_dot: Vec<f64>,
-    /// Whether slopes and rate belong to the present state.
+    /// Whether rate and mass matrix belong to the present state.
     prepared: bool,
+    /// When dF/dy was found [s].
+    linearised_at: Option<f64>,
     linear: Linearised,
     real: Factor<f64>,
     complex: Factor<Complex<f64>>,
@@ -94,10 +99,12 @@ impl FixedStep {
             rtol,
             atol: atol.to_vec(),
             newton_share,
+            kept: 0.0,
             t,
             y: y.to_vec(),
             y_dot: vec![0.0; n],
             prepared: false,
+            linearised_at: None,
             real: Factor::new(&linear.slopes),
             complex: Factor::new(&linear.slopes),
             linear,
@@ -111,6 +118,11 @@ impl FixedStep {
             right_complex: vec![Complex::ZERO; n],
             counters: Counters::default(),
         }
+    }
+
+    /// The same, keeping dF/dy over an azimuth of `kept` [rad].
+    pub fn keeping(self, kept: f64) -> Self {
+        Self { kept, ..self }
     }
 
     /// Time [s].
@@ -130,10 +142,24 @@ impl FixedStep {
         self.counters
     }
 
-    /// Linearises at the present state and finds the rate that satisfies F = 0 with `inputs` from now on.
+    /// Finds the rate that satisfies F = 0 with `inputs` from now on, and linearises where dF/dy is too old.
     pub fn prepare(&mut self, aircraft: &Aircraft, inputs: &Inputs) -> Result<(), StepFailure> {
-        let solved = self.linear.consistent(aircraft, self.t, &self.y, &mut self.y_dot, inputs);
-        self.counters.jacobians += 1;
+        // a hair more, so that two steps of ten degrees count as twenty
+        let kept = (1.0 + 1e-6) * self.kept / aircraft.rotor.omega;
+        let renew = self.linearised_at.is_none_or(|t| self.t - t > kept);
+        self.find_rate(aircraft, inputs, renew)
+    }
+
+    /// The rate at the present state, with dF/dy there (`renew`) or as it was.
+    fn find_rate(&mut self, aircraft: &Aircraft, inputs: &Inputs, renew: bool) -> Result<(), StepFailure> {
+        let (t, y, y_dot) = (self.t, &self.y, &mut self.y_dot);
+        let solved = if renew {
+            self.linearised_at = Some(t);
+            self.counters.jacobians += 1;
+            self.linear.consistent(aircraft, t, y, y_dot, inputs)
+        } else {
+            self.linear.consistent_by_mass(aircraft, t, y, y_dot, inputs)
+        };
         self.counters.residual_evaluations += 1;
         self.factored = None;
         if solved.is_err() {
@@ -174,6 +200,11 @@ impl FixedStep {
         }
         match self.attempt(aircraft, t1, inputs) {
             Ok(()) => Ok(()),
+            // first with the derivatives of this state, then with shorter steps
+            Err(_) if self.linearised_at != Some(self.t) => {
+                self.find_rate(aircraft, inputs, true)?;
+                self.step(aircraft, t1, inputs, halvings)
+            }
             Err(reason) if halvings >= MAX_HALVINGS => Err(self.failure(aircraft, inputs, reason)),
             Err(_) => {
                 self.counters.halvings += 1;
@@ -329,7 +360,7 @@ impl Aircraft {
     ///
     /// Fails where the mass matrix is singular, which no blade with mass has.
     pub fn consistent_rate(&self, t: f64, y: &[f64], inputs: &Inputs) -> Result<Vec<f64>, Singular> {
-        let mut slopes = crate::aircraft::jacobian::Slopes::new(self.layout);
+        let mut slopes = Slopes::new(self.layout);
         self.mass_slopes(t, y, inputs, &mut slopes);
         let mut mass = Factor::new(&slopes);
         mass.mass(&slopes)?;

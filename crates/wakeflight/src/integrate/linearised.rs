@@ -26,6 +26,24 @@ impl Linearised {
         aircraft.slopes(t, y, y_dot, inputs, &mut self.slopes);
     }
 
+    /// Finds dF/dy_dot at (t, y); dF/dy is left as it was.
+    pub fn renew_mass(&mut self, aircraft: &Aircraft, t: f64, y: &[f64], inputs: &Inputs) {
+        aircraft.mass_slopes(t, y, inputs, &mut self.slopes);
+    }
+
+    /// Finds dF/dy_dot at (t, y), leaves dF/dy as it was, and corrects `y_dot` as `consistent` does.
+    pub fn consistent_by_mass(
+        &mut self,
+        aircraft: &Aircraft,
+        t: f64,
+        y: &[f64],
+        y_dot: &mut [f64],
+        inputs: &Inputs,
+    ) -> Result<(), Singular> {
+        self.renew_mass(aircraft, t, y, inputs);
+        self.correct(aircraft, t, y, y_dot, inputs)
+    }
+
     /// Linearises at (t, y) and corrects `y_dot` so that F = 0: F is linear in it and the matrix is that of this state,
     /// so one correction is exact. Fails where the mass matrix is singular, which no blade with mass has.
     pub fn consistent(
@@ -37,6 +55,18 @@ impl Linearised {
         inputs: &Inputs,
     ) -> Result<(), Singular> {
         self.renew(aircraft, t, y, y_dot, inputs);
+        self.correct(aircraft, t, y, y_dot, inputs)
+    }
+
+    /// Takes off `y_dot` what F = 0 asks for, by the matrix of this state.
+    fn correct(
+        &mut self,
+        aircraft: &Aircraft,
+        t: f64,
+        y: &[f64],
+        y_dot: &mut [f64],
+        inputs: &Inputs,
+    ) -> Result<(), Singular> {
         aircraft.residual_of_four(t, y, y_dot, inputs, &mut self.f);
         self.mass.mass(&self.slopes)?;
         self.mass.solve(&self.slopes, &mut self.f);

@@ -11,120 +11,11 @@ use crate::blade::kinematics::{ModalMotion, PitchMotion, combine};
 use crate::blade::loads::{BladeEnvironment, BladeInflow, BladeLoads, HubMotion};
 use crate::blade::model::{Blade, Discretisation};
 use crate::blade::thin_section::ThinSection;
-use crate::numerics::four::{Four, FourTask, four_at_once};
 use crate::numerics::frames::{Body, Hub, Rotation, Vec3, rot_hb};
-use crate::numerics::scalar::Real;
+use crate::numerics::scalar::{Dual, Real};
 
-/// Azimuth, modal motion and pitch of a blade.
-pub type BladePose = (f64, ModalMotion<f64>, PitchMotion<f64>);
-
-/// Most stations whose air is found for four blades at once; more are done blade by blade.
-const MOST_STATIONS: usize = 64;
-
-/// Air of four blades.
-#[derive(Clone, Copy)]
-enum FourInflow<'a> {
-    /// None, or left to each blade by itself.
-    Without,
-    /// lambda_0, lambda_s, lambda_c.
-    Disk([f64; 3]),
-    /// One value per station, blade by blade.
-    Stations([&'a [f64]; 4]),
-}
-
-impl<'a> FourInflow<'a> {
-    fn of(inflow: &[BladeInflow<'a, f64>; 4]) -> Self {
-        match inflow {
-            [BladeInflow::Disk(states), ..] => Self::Disk(*states),
-            [
-                BladeInflow::Stations(a),
-                BladeInflow::Stations(b),
-                BladeInflow::Stations(c),
-                BladeInflow::Stations(d),
-            ] if a.len() <= MOST_STATIONS => Self::Stations([a, b, c, d]),
-            _ => Self::Without,
-        }
-    }
-}
-
-/// Loads of four blades but for their dampers.
-struct FourBlades<'a> {
-    rotor: &'a Rotor,
-    environment: BladeEnvironment<'a>,
-    hub: &'a HubMotion<f64>,
-    blades: &'a [BladePose; 4],
-    inflow: FourInflow<'a>,
-}
-
-impl FourTask for FourBlades<'_> {
-    type Output = [BladeLoads<f64>; 4];
-    #[inline(always)]
-    fn run<S: Four>(self) -> Self::Output {
-        let (b, blade) = (self.blades, &self.rotor.blade);
-        let n = blade.n_modes;
-        let zero = [S::zero(); MAX_MODES];
-        let mut modal = ModalMotion { q: zero, q_dot: zero, q_ddot: zero };
-        for i in 0..n {
-            modal.q[i] = S::of([b[0].1.q[i], b[1].1.q[i], b[2].1.q[i], b[3].1.q[i]]);
-            modal.q_dot[i] = S::of([b[0].1.q_dot[i], b[1].1.q_dot[i], b[2].1.q_dot[i], b[3].1.q_dot[i]]);
-            modal.q_ddot[i] = S::of([b[0].1.q_ddot[i], b[1].1.q_ddot[i], b[2].1.q_ddot[i], b[3].1.q_ddot[i]]);
-        }
-        let control = PitchMotion {
-            theta: S::of([b[0].2.theta, b[1].2.theta, b[2].2.theta, b[3].2.theta]),
-            theta_dot: S::of([b[0].2.theta_dot, b[1].2.theta_dot, b[2].2.theta_dot, b[3].2.theta_dot]),
-            theta_ddot: S::of([b[0].2.theta_ddot, b[1].2.theta_ddot, b[2].2.theta_ddot, b[3].2.theta_ddot]),
-        };
-        let psi = S::of([b[0].0, b[1].0, b[2].0, b[3].0]);
-        let hub = self.hub.constant();
-        let mut stations = [S::zero(); MOST_STATIONS];
-        let inflow = match self.inflow {
-            FourInflow::Without => BladeInflow::Vacuum,
-            FourInflow::Disk([mean, sine, cosine]) => {
-                BladeInflow::Disk([S::cst(mean), S::cst(sine), S::cst(cosine)])
-            }
-            FourInflow::Stations([a, b, c, d]) => {
-                for j in 0..a.len() {
-                    stations[j] = S::of([a[j], b[j], c[j], d[j]]);
-                }
-                BladeInflow::Variable(&stations[..a.len()])
-            }
-        };
-        split(&blade.loads(&self.environment, &hub, psi, &modal, &control, &inflow), n)
-    }
-}
-
-/// Four vectors side by side, one by one.
-#[inline(always)]
-fn apart<S: Four>(v: &Vec3<S, Hub>) -> [Vec3<f64, Hub>; 4] {
-    let (x, y, z) = (v.x.values(), v.y.values(), v.z.values());
-    [
-        Vec3::new(x[0], y[0], z[0]),
-        Vec3::new(x[1], y[1], z[1]),
-        Vec3::new(x[2], y[2], z[2]),
-        Vec3::new(x[3], y[3], z[3]),
-    ]
-}
-
-/// Loads of four blades side by side, one by one.
-#[inline(always)]
-fn split<S: Four>(four: &BladeLoads<S>, n_modes: usize) -> [BladeLoads<f64>; 4] {
-    let mut loads = [BladeLoads::zero(); 4];
-    for i in 0..n_modes {
-        let values = four.modal[i].values();
-        for k in 0..4 {
-            loads[k].modal[i] = values[k];
-        }
-    }
-    let (force, moment) = (apart(&four.force), apart(&four.moment));
-    let (aero_force, aero_moment) = (apart(&four.aero_force), apart(&four.aero_moment));
-    for k in 0..4 {
-        loads[k].force = force[k];
-        loads[k].moment = moment[k];
-        loads[k].aero_force = aero_force[k];
-        loads[k].aero_moment = aero_moment[k];
-    }
-    loads
-}
+/// Derivatives of a damper's virtual work, row by row.
+pub type DamperSlopes = [[f64; 2 * MAX_MODES]; MAX_MODES];
 
 /// Rotor of equal blades.
 #[derive(Clone, Debug)]
@@ -210,7 +101,7 @@ impl Rotor {
     }
 
     #[inline(always)]
-    fn environment(&self, air: Air) -> BladeEnvironment<'_> {
+    pub(super) fn environment(&self, air: Air) -> BladeEnvironment<'_> {
         BladeEnvironment { airfoil: &self.airfoil, air, rotor_speed: self.omega }
     }
 
@@ -226,48 +117,24 @@ impl Rotor {
         control: &PitchMotion<S>,
         inflow: &BladeInflow<S>,
     ) -> BladeLoads<S> {
-        let mut loads = self.blade.loads(&self.environment(air), hub, S::cst(psi), modal, control, inflow);
+        let mut loads = self.undamped_loads(air, hub, psi, modal, control, inflow);
         self.add_damper(modal, control, &mut loads.modal);
         loads
     }
 
-    /// Loads of four blades with their dampers, each with its inflow: the bits of `blade_loads`.
-    pub fn four_blade_loads(
+    /// The same without the damper.
+    #[allow(clippy::too_many_arguments, reason = "the physical inputs of one blade")]
+    #[inline(always)]
+    pub fn undamped_loads<S: Real>(
         &self,
         air: Air,
-        hub: &HubMotion<f64>,
-        blades: &[BladePose; 4],
-        inflow: &[BladeInflow<f64>; 4],
-    ) -> [BladeLoads<f64>; 4] {
-        let environment = self.environment(air);
-        let together = FourInflow::of(inflow);
-        let task = FourBlades { rotor: self, environment, hub, blades, inflow: together };
-        let Ok(mut loads) = four_at_once(task) else {
-            return std::array::from_fn(|k| {
-                let (psi, modal, control) = &blades[k];
-                self.blade_loads(air, hub, *psi, modal, control, &inflow[k])
-            });
-        };
-        for ((loads, (psi, modal, control)), inflow) in loads.iter_mut().zip(blades).zip(inflow) {
-            let missing = matches!(together, FourInflow::Without) && !matches!(inflow, BladeInflow::Vacuum);
-            if missing {
-                self.blade.add_air_loads(&environment, hub, *psi, modal, control, inflow, loads);
-            }
-            self.add_damper(modal, control, &mut loads.modal);
-        }
-        loads
-    }
-
-    /// Inertia and gravity of a blade alone: all that depends on accelerations.
-    #[inline(always)]
-    pub fn blade_inertia<S: Real>(
-        &self,
         hub: &HubMotion<S>,
         psi: f64,
         modal: &ModalMotion<S>,
         control: &PitchMotion<S>,
+        inflow: &BladeInflow<S>,
     ) -> BladeLoads<S> {
-        self.blade.inertia(self.omega, hub, S::cst(psi), modal, control)
+        self.blade.loads(&self.environment(air), hub, S::cst(psi), modal, control, inflow)
     }
 
     /// Inflow of a blade held as one row: at the stations, followed for thin sections by that at three quarters of the chord.
@@ -300,7 +167,7 @@ impl Rotor {
 
     /// Virtual work of damper and hinge spring: they act between hub and blade and pass no load on.
     #[inline(always)]
-    fn add_damper<S: Real>(
+    pub(super) fn add_damper<S: Real>(
         &self,
         modal: &ModalMotion<S>,
         control: &PitchMotion<S>,
@@ -320,6 +187,25 @@ impl Rotor {
             let stroke_i = stroke[0] * lead_i + stroke[1] * flap_i + stroke[2] * blade.root.theta[i];
             *total += spring * lead_i - force * stroke_i;
         }
+    }
+
+    /// Derivatives of the damper's virtual work by modal coordinates and rates: (row, column), columns coordinates first.
+    pub fn damper_slopes(&self, modal: &ModalMotion<f64>, control: &PitchMotion<f64>) -> DamperSlopes {
+        let n = self.blade.n_modes;
+        let zero = [Dual::zero(); MAX_MODES];
+        let mut motion = ModalMotion { q: zero, q_dot: zero, q_ddot: zero };
+        for i in 0..n {
+            motion.q[i] = Dual::variable(modal.q[i], i);
+            motion.q_dot[i] = Dual::variable(modal.q_dot[i], n + i);
+        }
+        let held = PitchMotion {
+            theta: Dual::cst(control.theta),
+            theta_dot: Dual::cst(control.theta_dot),
+            theta_ddot: Dual::cst(control.theta_ddot),
+        };
+        let mut work = [Dual::<{ 2 * MAX_MODES }>::zero(); MAX_MODES];
+        self.add_damper(&motion, &held, &mut work);
+        work.map(|w| w.eps)
     }
 
     /// Rigid flap and lead angles that put the tip where the deflected blade has it [rad].

@@ -2,6 +2,7 @@
 pub mod circulation;
 pub mod data;
 pub mod exchange;
+pub mod four;
 pub mod hub;
 pub mod lag_damper;
 pub mod periodic;

@@ -1,0 +1,216 @@
+//! Four blades at once: the lanes of a register, each blade with the bits it has alone.
+
+use super::hub::Rotor;
+use crate::blade::MAX_MODES;
+use crate::blade::aerodynamics::Air;
+use crate::blade::kinematics::{ModalMotion, PitchMotion};
+use crate::blade::loads::{BladeEnvironment, BladeInflow, BladeLoads, HubMotion};
+use crate::blade::mass_matrix::BladeMass;
+use crate::numerics::four::{Four, FourTask, four_at_once};
+use crate::numerics::frames::{Hub, Vec3};
+
+/// Azimuth, modal motion and pitch of a blade.
+pub type BladePose = (f64, ModalMotion<f64>, PitchMotion<f64>);
+
+/// Most stations whose air is found for four blades at once; more are done blade by blade.
+const MOST_STATIONS: usize = 64;
+
+/// Air of four blades.
+#[derive(Clone, Copy)]
+enum FourInflow<'a> {
+    /// None, or left to each blade by itself.
+    Without,
+    /// lambda_0, lambda_s, lambda_c.
+    Disk([f64; 3]),
+    /// One value per station, blade by blade.
+    Stations([&'a [f64]; 4]),
+}
+
+impl<'a> FourInflow<'a> {
+    fn of(inflow: &[BladeInflow<'a, f64>; 4]) -> Self {
+        match inflow {
+            [BladeInflow::Disk(states), ..] => Self::Disk(*states),
+            [
+                BladeInflow::Stations(a),
+                BladeInflow::Stations(b),
+                BladeInflow::Stations(c),
+                BladeInflow::Stations(d),
+            ] if a.len() <= MOST_STATIONS => Self::Stations([a, b, c, d]),
+            _ => Self::Without,
+        }
+    }
+}
+
+/// Loads of four blades but for their dampers.
+struct FourBlades<'a> {
+    rotor: &'a Rotor,
+    environment: BladeEnvironment<'a>,
+    hub: &'a HubMotion<f64>,
+    blades: &'a [BladePose; 4],
+    inflow: FourInflow<'a>,
+}
+
+impl FourTask for FourBlades<'_> {
+    type Output = [BladeLoads<f64>; 4];
+    #[inline(always)]
+    fn run<S: Four>(self) -> Self::Output {
+        let blade = &self.rotor.blade;
+        let n = blade.n_modes;
+        let (psi, modal, control) = side_by_side::<S>(self.blades, n);
+        let hub = self.hub.constant();
+        let mut stations = [S::zero(); MOST_STATIONS];
+        let inflow = match self.inflow {
+            FourInflow::Without => BladeInflow::Vacuum,
+            FourInflow::Disk([mean, sine, cosine]) => {
+                BladeInflow::Disk([S::cst(mean), S::cst(sine), S::cst(cosine)])
+            }
+            FourInflow::Stations([a, b, c, d]) => {
+                for j in 0..a.len() {
+                    stations[j] = S::of([a[j], b[j], c[j], d[j]]);
+                }
+                BladeInflow::Variable(&stations[..a.len()])
+            }
+        };
+        split(&blade.loads(&self.environment, &hub, psi, &modal, &control, &inflow), n)
+    }
+}
+
+/// Four vectors side by side, one by one.
+#[inline(always)]
+fn apart<S: Four>(v: &Vec3<S, Hub>) -> [Vec3<f64, Hub>; 4] {
+    let (x, y, z) = (v.x.values(), v.y.values(), v.z.values());
+    [
+        Vec3::new(x[0], y[0], z[0]),
+        Vec3::new(x[1], y[1], z[1]),
+        Vec3::new(x[2], y[2], z[2]),
+        Vec3::new(x[3], y[3], z[3]),
+    ]
+}
+
+/// Loads of four blades side by side, one by one.
+#[inline(always)]
+fn split<S: Four>(four: &BladeLoads<S>, n_modes: usize) -> [BladeLoads<f64>; 4] {
+    let mut loads = [BladeLoads::zero(); 4];
+    for i in 0..n_modes {
+        let values = four.modal[i].values();
+        for k in 0..4 {
+            loads[k].modal[i] = values[k];
+        }
+    }
+    let (force, moment) = (apart(&four.force), apart(&four.moment));
+    let (aero_force, aero_moment) = (apart(&four.aero_force), apart(&four.aero_moment));
+    for k in 0..4 {
+        loads[k].force = force[k];
+        loads[k].moment = moment[k];
+        loads[k].aero_force = aero_force[k];
+        loads[k].aero_moment = aero_moment[k];
+    }
+    loads
+}
+
+/// Azimuth, modal motion and pitch of four blades in one.
+#[inline(always)]
+fn side_by_side<S: Four>(b: &[BladePose; 4], n: usize) -> (S, ModalMotion<S>, PitchMotion<S>) {
+    let zero = [S::zero(); MAX_MODES];
+    let mut modal = ModalMotion { q: zero, q_dot: zero, q_ddot: zero };
+    for i in 0..n {
+        modal.q[i] = S::of([b[0].1.q[i], b[1].1.q[i], b[2].1.q[i], b[3].1.q[i]]);
+        modal.q_dot[i] = S::of([b[0].1.q_dot[i], b[1].1.q_dot[i], b[2].1.q_dot[i], b[3].1.q_dot[i]]);
+        modal.q_ddot[i] = S::of([b[0].1.q_ddot[i], b[1].1.q_ddot[i], b[2].1.q_ddot[i], b[3].1.q_ddot[i]]);
+    }
+    let control = PitchMotion {
+        theta: S::of([b[0].2.theta, b[1].2.theta, b[2].2.theta, b[3].2.theta]),
+        theta_dot: S::of([b[0].2.theta_dot, b[1].2.theta_dot, b[2].2.theta_dot, b[3].2.theta_dot]),
+        theta_ddot: S::of([b[0].2.theta_ddot, b[1].2.theta_ddot, b[2].2.theta_ddot, b[3].2.theta_ddot]),
+    };
+    let psi = S::of([b[0].0, b[1].0, b[2].0, b[3].0]);
+    (psi, modal, control)
+}
+
+/// Mass matrices of four blades.
+struct FourMasses<'a> {
+    rotor: &'a Rotor,
+    blades: &'a [BladePose; 4],
+}
+
+impl FourTask for FourMasses<'_> {
+    type Output = [BladeMass<f64>; 4];
+    #[inline(always)]
+    fn run<S: Four>(self) -> Self::Output {
+        let n = self.rotor.blade.n_modes;
+        let (psi, modal, control) = side_by_side::<S>(self.blades, n);
+        let four = self.rotor.blade.mass_matrix(psi, &modal, &control);
+        let nothing = Vec3::zero();
+        let none = BladeMass {
+            own: [[0.0; MAX_MODES]; MAX_MODES],
+            force: [nothing; MAX_MODES],
+            moment: [nothing; MAX_MODES],
+            first_moment: nothing,
+            inertia: [nothing; 3],
+        };
+        let mut masses = [none; 4];
+        for i in 0..n {
+            let (force, moment) = (apart(&four.force[i]), apart(&four.moment[i]));
+            for k in 0..4 {
+                masses[k].force[i] = force[k];
+                masses[k].moment[i] = moment[k];
+            }
+            for j in 0..n {
+                let own = four.own[i][j].values();
+                for k in 0..4 {
+                    masses[k].own[i][j] = own[k];
+                }
+            }
+        }
+        let first = apart(&four.first_moment);
+        for k in 0..4 {
+            masses[k].first_moment = first[k];
+        }
+        for axis in 0..3 {
+            let inertia = apart(&four.inertia[axis]);
+            for k in 0..4 {
+                masses[k].inertia[axis] = inertia[k];
+            }
+        }
+        masses
+    }
+}
+
+impl Rotor {
+    /// Loads of four blades with their dampers, each with its inflow: the bits of `blade_loads`.
+    pub fn four_blade_loads(
+        &self,
+        air: Air,
+        hub: &HubMotion<f64>,
+        blades: &[BladePose; 4],
+        inflow: &[BladeInflow<f64>; 4],
+    ) -> [BladeLoads<f64>; 4] {
+        let environment = self.environment(air);
+        let together = FourInflow::of(inflow);
+        let task = FourBlades { rotor: self, environment, hub, blades, inflow: together };
+        let Ok(mut loads) = four_at_once(task) else {
+            return std::array::from_fn(|k| {
+                let (psi, modal, control) = &blades[k];
+                self.blade_loads(air, hub, *psi, modal, control, &inflow[k])
+            });
+        };
+        for ((loads, (psi, modal, control)), inflow) in loads.iter_mut().zip(blades).zip(inflow) {
+            let missing = matches!(together, FourInflow::Without) && !matches!(inflow, BladeInflow::Vacuum);
+            if missing {
+                self.blade.add_air_loads(&environment, hub, *psi, modal, control, inflow, loads);
+            }
+            self.add_damper(modal, control, &mut loads.modal);
+        }
+        loads
+    }
+
+    /// Mass matrices of four blades.
+    pub fn four_mass_matrices(&self, blades: &[BladePose; 4]) -> [BladeMass<f64>; 4] {
+        four_at_once(FourMasses { rotor: self, blades }).unwrap_or_else(|task| {
+            std::array::from_fn(|k| {
+                let (psi, modal, control) = &task.blades[k];
+                self.blade.mass_matrix(*psi, modal, control)
+            })
+        })
+    }
+}
