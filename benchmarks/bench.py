@@ -2,7 +2,8 @@
 
     python benchmarks/bench.py [--quick] [--print] [PART ...]
 
-Parts: kernel, threads, scaling, dynamics, maneuvers, import; by default all. --quick: smaller wakes and two revolutions.
+Parts: kernel, threads, scaling, wake-step, pec, isolated-rotor, caradonna-tung, dynamics, maneuvers, import;
+by default all. --quick: smaller wakes and two revolutions.
 --print: show the tables and leave the page alone. A part that is not asked for keeps its table.
 """
 
@@ -13,10 +14,14 @@ from pathlib import Path
 import flight
 import measure
 import vortex
+import wake
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "numerics" / "performance.md"
 FIGURE = PAGE.parents[1] / "images" / "tree-scaling.png"
-PARTS = ("kernel", "threads", "scaling", "dynamics", "maneuvers", "import")
+PARTS = (
+    *("kernel", "threads", "scaling", "wake-step", "pec", "isolated-rotor", "caradonna-tung"),
+    *("dynamics", "maneuvers", "import"),
+)
 
 
 def fastest(kernel: str) -> float:
@@ -50,6 +55,10 @@ def main() -> None:
         "kernel": lambda: kernel,
         "threads": vortex.threads,
         "scaling": lambda: vortex.scaling(options.quick, None if options.only_print or options.quick else FIGURE),
+        "wake-step": lambda: wake.steps(options.quick),
+        "pec": lambda: wake.pec(options.quick),
+        "isolated-rotor": wake.isolated_rotor,
+        "caradonna-tung": wake.caradonna_tung,
         "dynamics": lambda: flight.dynamics(options.quick),
         "maneuvers": lambda: flight.maneuvers(options.quick, fastest(kernel)),
         "import": flight.import_time,

@@ -279,7 +279,7 @@ def flight_model(start: Trim, inflow: str | InflowModel | None) -> Model:
     elif isinstance(inflow, str):
         chosen = trimmed
     before, now = trim_model(trimmed).core_options(start.aircraft), chosen.core_options(start.aircraft)
-    for name in sorted(set(now) - {"scheme", "predictor", "time_filter", "relaxation"}):
+    for name in sorted(set(now) - {"scheme", "predictor", "evaluation", "time_filter", "relaxation"}):
         if before[name] != now[name]:
             raise InputError.of(
                 name,

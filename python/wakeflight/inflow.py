@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 _CHOICES = {
     "scheme": ("bdf2", "pc2b", "pcc"),
     "predictor": ("same", "central"),
+    "evaluation": ("pece", "pec"),
+    "summation": ("auto", "direct", "tree"),
     "form": ("displacement", "position"),
     "trailers": ("tip", "full-span"),
     "shed_wake": ("none", "beyond", "all"),
@@ -33,6 +35,7 @@ _CHOICES = {
 _RANGES: dict[str, tuple[float, float]] = {
     "turns": (1, 20),
     "time_filter": (0.0, 0.49),
+    "tree_tolerance": (1e-12, 0.1),
     "n_trailers": (0, 201),
     "trailer_core": (0.0, 0.2),
     "tip_strength_inner": (0.0, 0.95),
@@ -135,6 +138,10 @@ class _Wake:
     """Blade stations, at the middles of elements that narrow towards the tip."""
     rates: bool = True
     """Whether the body's rates act on the free filaments (on blades and near wake they always do)."""
+    summation: str = "auto"
+    """Sum of the vortices at the markers: by the tree where it is faster (large wakes), or always direct or tree."""
+    tree_tolerance: float = 1e-3
+    """Error allowed of the tree, over the largest induced velocity at the markers."""
 
     name: ClassVar[str] = ""
 
@@ -201,6 +208,9 @@ class _Wake:
             "steps_per_revolution": steps,
             "scheme": getattr(self, "scheme", "bdf2"),
             "predictor": getattr(self, "predictor", "same"),
+            "evaluation": getattr(self, "evaluation", "pece"),
+            "summation": self.summation,
+            "tree_tolerance": float(self.tree_tolerance),
             "form": self.form,
             "time_filter": float(getattr(self, "time_filter", 0.0)),
             "trailers": self.trailers,
@@ -267,6 +277,8 @@ class TimeMarchingWake(_Wake):
     """Corrector: second-order backward at the new level, PC2B at the cell's centre, or five-point central."""
     predictor: str = "same"
     """Predictor: stencil of the corrector, or five-point central."""
+    evaluation: str = "pece"
+    """Fields of a step: of the predicted and the corrected wake, or of the predicted alone ("pec", half the work)."""
     time_filter: float = 0.0
     """Weight of a second difference in time that damps the odd-even mode of PC2B (0.05)."""
     convergence_revolutions: int = 10

@@ -258,3 +258,14 @@ def test_a_marching_rotor_answers_like_a_relaxed_one_in_forward_flight():
     assert marched.ct == pytest.approx(relaxed.ct, rel=0.03)
     probe = [[0.5 * relaxed.radius, 0.0, -0.5 * relaxed.radius]]
     assert marched.wake_velocity(probe)[0, 2] == pytest.approx(relaxed.wake_velocity(probe)[0, 2], rel=0.1)
+
+
+def test_the_circulation_of_a_wide_blade_in_hover_is_not_one_far_beyond_stall():
+    # started without near wake its tip stalls; the slope of a stalled section leads to solutions of thousands of m/s
+    run = wf.tunnel(CARADONNA, collective="8 deg", rpm=1250, inflow="relaxation")
+    solved = run.solution
+    assert solved.settled
+    psi = 2 * np.pi * np.arange(4) / 4
+    passages = solved.model.core.passages(solved.problem, solved.x, psi, solved.inflow_map[::9])
+    assert np.abs(passages["alpha"]).max() < np.radians(12.0)
+    assert passages["speed"].max() < 1.1 * 1250 * 2 * np.pi / 60 * 1.143

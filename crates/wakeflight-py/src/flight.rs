@@ -302,6 +302,7 @@ impl PyMarchingExchange {
         let options = parse_options(options_json)?;
         let mut wake = TimeMarchingWake::from_relaxation(&relaxation.inner, 0).map_err(py_error)?;
         wake.set_scheme(options.scheme, options.predictor, options.time_filter).map_err(py_error)?;
+        wake.set_evaluation(options.evaluation);
         let exchange = ExchangeOptions { recorrect, extrapolate };
         let start = [lambda_far, circulation, inflow].map(|a| flat(&a));
         let [far, gamma, total] = start;

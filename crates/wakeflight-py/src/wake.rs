@@ -308,6 +308,7 @@ impl TimeMarchingWake {
         let mut inner =
             wake::TimeMarchingWake::from_relaxation(&relaxation.inner, azimuth_index).map_err(py_error)?;
         inner.set_scheme(options.scheme, options.predictor, options.time_filter).map_err(py_error)?;
+        inner.set_evaluation(options.evaluation);
         Ok(Self { inner })
     }
 

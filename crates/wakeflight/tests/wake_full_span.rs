@@ -4,12 +4,14 @@ mod wake_cases;
 use std::collections::HashMap;
 use std::f64::consts::{PI, TAU};
 use wake_cases::*;
+use wakeflight::vortex::threads::set_threads;
 use wakeflight::wake::geometry::BladeGrid;
 use wakeflight::wake::velocity_field::{
     FieldWork, RotorInstant, VortexSegments, Wanted, field_at, point_velocity,
 };
 use wakeflight::wake::{
-    BladeState, Prescribed, RelaxationWake, Scheme, ShedWake, TimeMarchingWake, Trailers, WakeOptions,
+    BladeState, Prescribed, RelaxationWake, Scheme, ShedWake, Summation, TimeMarchingWake, Trailers,
+    WakeOptions,
 };
 
 const CT: f64 = 0.006;
@@ -500,4 +502,78 @@ fn verif_every_trailer_is_second_order() {
             assert!(order > least);
         }
     }
+}
+
+/// Sheets of parallel segments on whose prolongations the markers lie, with cores wider than the spacing of the trailers.
+#[test]
+fn verif_the_field_of_a_full_span_wake_by_the_tree_is_within_its_tolerance() {
+    let hub = hub(0.1, 0.0, 0.0, 0.0, 0.0);
+    let lattice = WakeOptions {
+        n_blades: 4,
+        n_stations: 20,
+        n_trailers: 0,
+        steps_per_revolution: 36,
+        turns: 4.0,
+        trailer_core: 0.02,
+        ..full_span()
+    };
+    let field = |summation: Summation, tree_tolerance: f64| {
+        let options = WakeOptions { summation, tree_tolerance, ..lattice.clone() };
+        let wake = TimeMarchingWake::from_relaxation(&loaded(&options, hub, 0.02), 0).unwrap();
+        wake.wake_velocity(wake.position())
+    };
+    let size = |v: [f64; 3]| v.iter().map(|c| c * c).sum::<f64>().sqrt();
+    let direct = field(Summation::Direct, 1e-3);
+    let largest = direct.iter().map(|v| size(*v)).fold(0.0, f64::max);
+    for tolerance in [1e-3, 1e-4] {
+        let tree = field(Summation::Tree, tolerance);
+        let error = |(a, b): (&[f64; 3], &[f64; 3])| size(std::array::from_fn(|c| a[c] - b[c]));
+        let error = tree.iter().zip(&direct).map(error).fold(0.0, f64::max) / largest;
+        println!("tolerance {tolerance:.0e}: error {error:.1e}");
+        assert!(error < tolerance, "{error} {tolerance}");
+    }
+}
+
+#[test]
+fn verif_marching_by_the_tree_is_marching_by_the_direct_sum_within_its_tolerance() {
+    let hub = hub(0.1, 0.0, 0.0, 0.0, 0.0);
+    let tolerance = 1e-3;
+    let march = |summation: Summation, threads: usize| {
+        set_threads(threads).unwrap();
+        let options = WakeOptions {
+            summation,
+            tree_tolerance: tolerance,
+            n_stations: 20,
+            n_trailers: 16,
+            steps_per_revolution: 36,
+            ..full_span()
+        };
+        let mut wake = TimeMarchingWake::from_relaxation(&loaded(&options, hub, 0.03), 0).unwrap();
+        for step in 1..=2 {
+            wake.step(hub, &blades(&options, step), &[12.0; 40]).unwrap();
+        }
+        let induced = wake.wake_velocity(wake.position());
+        (options, wake.position().to_vec(), induced, wake.segment_evaluations())
+    };
+    let (options, direct, induced, all) = march(Summation::Direct, 2);
+    let (_, tree, _, near) = march(Summation::Tree, 2);
+    let (_, one_thread, ..) = march(Summation::Tree, 1);
+    let (_, auto, _, chosen) = march(Summation::Auto, 2);
+    assert!(tree == one_thread, "the tree's wake depends on the number of threads");
+    let largest = induced.iter().map(|v| v.iter().map(|c| c * c).sum::<f64>().sqrt()).fold(0.0, f64::max);
+    // an error e of the velocity moves a marker by e dt/1.75 in a step, 1/7 of that of the one before it along the filament
+    // besides, and 2/1.75 of what the last step did: 0.67 e dt, then 1.6 e dt
+    let allowed = 1.6 * tolerance * largest * options.delta_psi() / options.omega;
+    let apart = |a: &[[f64; 3]]| {
+        let gap = |(p, q): (&[f64; 3], &[f64; 3])| (0..3).map(|c| (p[c] - q[c]).powi(2)).sum::<f64>().sqrt();
+        a.iter().zip(&direct).map(gap).fold(0.0, f64::max)
+    };
+    println!(
+        "apart {:.1e}, allowed {allowed:.1e}; evaluations {all}, tree {near}, auto {chosen}",
+        apart(&tree)
+    );
+    assert!(apart(&tree) > 0.0 && apart(&tree) < allowed, "{} {allowed}", apart(&tree));
+    assert!(near < all / 2);
+    // nine thousand segments at over three thousand markers: enough for the tree to be chosen
+    assert!(chosen == near && auto == tree);
 }

@@ -2,7 +2,8 @@
 
 use std::f64::consts::TAU;
 use wakeflight::wake::{
-    BladeState, Form, HubMotion, Predictor, Prescribed, RelaxationWake, Scheme, TimeMarchingWake, WakeOptions,
+    BladeState, Evaluation, Form, HubMotion, Predictor, Prescribed, RelaxationWake, Scheme, TimeMarchingWake,
+    WakeOptions,
 };
 
 type Field = Prescribed<fn([f64; 3]) -> [f64; 3]>;
@@ -123,6 +124,7 @@ fn errors(a: &[[f64; 3]], b: &[[f64; 3]]) -> (f64, f64) {
 enum Solver {
     Relaxation,
     Marching(Scheme, Form),
+    OneField(Scheme),
 }
 
 /// RMS error over R in the swirling field at `steps` per revolution.
@@ -131,6 +133,9 @@ fn swirl_error(solver: &Solver, steps: usize) -> f64 {
     let mut options = options(steps, 3.0);
     if let Solver::Marching(scheme, form) = solver {
         (options.scheme, options.form) = (*scheme, *form);
+    }
+    if let Solver::OneField(scheme) = solver {
+        (options.scheme, options.evaluation) = (*scheme, Evaluation::Pec);
     }
     let mut start = periodic(&options, hub, flap, 0.0, Prescribed(swirl as fn([f64; 3]) -> [f64; 3]));
     let exact = |psi: f64| exact_filament(&options, psi, flap, hub, swirl);
@@ -141,7 +146,7 @@ fn swirl_error(solver: &Solver, steps: usize) -> f64 {
             let all: Vec<[f64; 3]> = (0..steps).flat_map(|l| exact(TAU * l as f64 / steps as f64)).collect();
             errors(start.position(), &all).0
         }
-        Solver::Marching(..) => {
+        Solver::Marching(..) | Solver::OneField(..) => {
             let wake = marched(&start, hub, flap, 8 * steps);
             let all: Vec<[f64; 3]> = (0..4).flat_map(|b| exact(TAU * b as f64 / 4.0)).collect();
             errors(wake.position(), &all).0
@@ -183,6 +188,23 @@ fn verif_bdf2_marching_is_second_order() {
 #[test]
 fn verif_bdf2_marching_in_positions_is_second_order() {
     check_order(&Solver::Marching(Scheme::Bdf2, Form::Position), [1.32e-1, 4.36e-2, 1.31e-2], 1.6);
+}
+
+#[test]
+fn verif_one_field_a_step_keeps_the_second_order() {
+    for scheme in [Scheme::Bdf2, Scheme::Pc2b, Scheme::Pcc] {
+        let both = [36, 72, 144].map(|steps| {
+            let at = |solver| swirl_error(&solver, steps);
+            [at(Solver::Marching(scheme, Form::Displacement)), at(Solver::OneField(scheme))]
+        });
+        let order = (both[1][1] / both[2][1]).log2();
+        println!("{scheme:?}: errors with two fields, one {both:?}, order {order}");
+        assert!(order >= 1.6, "{scheme:?}: order {order}");
+        // the second field moves only the predictor
+        for [two, one] in both {
+            assert!((one / two - 1.0).abs() < 0.01, "{scheme:?}: {one} {two}");
+        }
+    }
 }
 
 /// Contraction and descent V/(omega R) = (-s x, -s y, -lambda): r = (e^(-s zeta) cos(psi - zeta), ..., -lambda zeta).

@@ -5,6 +5,10 @@ use crate::numerics::linear::solve_in_place;
 
 /// Most Newton iterations.
 const MAX_ITERATIONS: usize = 40;
+/// Residual over the steepest slope, an inflow, from which on slopes are taken as they are.
+const CLOSE: f64 = 0.002;
+/// Way from there to the solution over the steepest slope, at most: farther off lies another one, of stalled sections.
+const FARTHEST: f64 = 0.01;
 /// Most Newton iterations with the slopes as they are.
 const MAX_EXACT_ITERATIONS: usize = 10;
 /// Most halvings of one step.
@@ -55,7 +59,7 @@ impl Iterate {
 /// Slopes of the linearisation.
 #[derive(Clone, Copy)]
 enum Slopes {
-    /// As the sections have them: quadratic convergence near the solution.
+    /// As the sections have them: quadratic convergence, near a solution.
     Exact,
     /// Clipped to [floor, 0]: slow, but the sign of a stalled section does not turn Newton away.
     Clipped,
@@ -80,9 +84,11 @@ struct Problem<'a, F> {
 ///   Slopes are clipped to [floor, 0] where Newton with the slopes as they are does not descend;
 /// * `tolerance` [m2/s], for example 1e-8 omega R^2.
 ///
-/// Newton steps (I - S N) dGamma = Gamma_section - Gamma, halved while the residual grows: first with the slopes as they
-/// are, which takes two or three steps (clipped ones fifteen, wherever reverse flow or Mach number put a slope outside the
-/// range), then with clipped slopes from the start given; where these fail too, once more from the circulation that sections of the far inflow's slope would have: a wide blade's start
+/// Newton steps (I - S N) dGamma = Gamma_section - Gamma, halved while the residual grows. Clipped slopes bring it close:
+/// with a stalled section's own slope Newton leaves for solutions far beyond stall. From there the slopes are taken as
+/// they are, which converges in two or three steps where clipped ones take fifteen or never arrive (reverse flow, high Mach
+/// number). What that finds is taken if it is near; otherwise the slopes stay clipped. Where all fails from the start
+/// given, once more from the circulation that sections of the far inflow's slope would have: a wide blade's start
 /// without near wake stalls its tip, and Newton does not come back from there. Values of `section` that are
 /// not finite are treated as an infinite residual and never accepted.
 pub fn solve_circulation(
@@ -104,18 +110,14 @@ pub fn solve_circulation(
     let mut problem = Problem { far: lambda_far, near: n_matrix, floor: slope_floor, section: &mut section };
     let mut start = Iterate::new(n);
     start.gamma.copy_from_slice(gamma_start);
-    let mut best = problem.descend(start.clone(), Slopes::Exact, tolerance);
-    if best.0.residual > tolerance {
-        let careful = problem.descend(start, Slopes::Clipped, tolerance);
-        best = (careful.0, best.1 + careful.1);
-    }
+    let mut best = problem.settle(start, tolerance);
     if best.0.residual > tolerance {
         let mut flat = Iterate::new(n);
         problem.evaluate(&mut flat);
         let mut linear = Iterate::new(n);
         let mut jacobian = vec![0.0; n * n];
         if problem.newton_step(&flat, Slopes::Clipped, &mut jacobian, &mut linear.gamma) {
-            let again = problem.descend(linear, Slopes::Clipped, tolerance);
+            let again = problem.settle(linear, tolerance);
             if again.0.residual < best.0.residual {
                 best = (again.0, best.1 + again.1);
             }
@@ -166,6 +168,23 @@ impl<F: FnMut(&[f64], &mut [f64], &mut [f64])> Problem<'_, F> {
         }
         step.copy_from_slice(&here.defect);
         solve_in_place(jacobian, step) && step.iter().all(|v| v.is_finite())
+    }
+
+    /// From `start` close to a solution with clipped slopes, to it with exact ones where it is as near as it seems.
+    fn settle(&mut self, start: Iterate, tolerance: f64) -> (Iterate, usize) {
+        let steepest = self.floor.iter().fold(0.0f64, |most, s| most.max(s.abs()));
+        let near = tolerance.max(CLOSE * steepest);
+        let (close, n_close) = self.descend(start, Slopes::Clipped, near);
+        if close.residual <= tolerance || close.residual > near {
+            return (close, n_close);
+        }
+        let (found, n_found) = self.descend(close.clone(), Slopes::Exact, tolerance);
+        let way = found.gamma.iter().zip(&close.gamma).fold(0.0f64, |most, (a, b)| most.max((a - b).abs()));
+        if found.residual <= tolerance && way <= FARTHEST * steepest {
+            return (found, n_close + n_found);
+        }
+        let (slow, n_slow) = self.descend(close, Slopes::Clipped, tolerance);
+        (slow, n_close + n_found + n_slow)
     }
 
     /// Damped Newton from `here.gamma`: the best iterate and the number of iterations.

@@ -26,8 +26,8 @@ pub use error::WakeError;
 pub use lifting_surface::weissinger_matrix;
 pub use near_wake::near_wake_matrix;
 pub use options::{
-    BladeState, CoreDistance, Form, HubMotion, InboardWake, Predictor, Scheme, ShedWake, TipStrength,
-    Trailers, WakeOptions,
+    BladeState, CoreDistance, Evaluation, Form, HubMotion, InboardWake, Predictor, Scheme, ShedWake,
+    Summation, TipStrength, Trailers, WakeOptions,
 };
 pub use relaxation::{Norms, RelaxationWake, tip_rows};
 pub use time_marching::{StepReport, TimeMarchingWake};

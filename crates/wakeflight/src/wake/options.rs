@@ -2,6 +2,7 @@
 
 use super::error::{WakeError, finite};
 use crate::vortex::core;
+use crate::vortex::tree::Method;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, TAU};
 
@@ -25,6 +26,28 @@ pub enum Predictor {
     Same,
     /// Five-point central.
     Central,
+}
+
+/// Fields that a step of the time-marching wake evaluates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Evaluation {
+    /// Predict, evaluate, correct, evaluate: a step begins with the field of the corrected wake.
+    Pece,
+    /// Predict, evaluate, correct: a step begins with the field of the wake that the last step predicted.
+    Pec,
+}
+
+/// How the vortices are summed at the markers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Summation {
+    /// By the tree where it was measured to be faster.
+    Auto,
+    /// Every segment at every point.
+    Direct,
+    /// By the tree.
+    Tree,
 }
 
 /// Unknown that the stencils of the time-marching wake act on.
@@ -131,6 +154,15 @@ pub struct WakeOptions {
     /// Predictor of the time-marching wake.
     #[serde(default = "default::predictor")]
     pub predictor: Predictor,
+    /// Fields that a step of the time-marching wake evaluates.
+    #[serde(default = "default::evaluation")]
+    pub evaluation: Evaluation,
+    /// How the vortices are summed at the markers; at the stations, which are few, always directly.
+    #[serde(default = "default::summation")]
+    pub summation: Summation,
+    /// Error allowed of the tree, over the largest induced velocity at the markers.
+    #[serde(default = "default::tree_tolerance")]
+    pub tree_tolerance: f64,
     /// Unknown of the time-marching stencils.
     #[serde(default = "default::form")]
     pub form: Form,
@@ -223,6 +255,15 @@ mod default {
     pub fn predictor() -> Predictor {
         Predictor::Same
     }
+    pub fn evaluation() -> Evaluation {
+        Evaluation::Pece
+    }
+    pub fn summation() -> Summation {
+        Summation::Auto
+    }
+    pub fn tree_tolerance() -> f64 {
+        crate::vortex::tree::DEFAULT_TOLERANCE
+    }
     pub fn form() -> Form {
         Form::Displacement
     }
@@ -308,6 +349,9 @@ impl WakeOptions {
             steps_per_revolution: default::steps_per_revolution(),
             scheme: default::scheme(),
             predictor: default::predictor(),
+            evaluation: default::evaluation(),
+            summation: default::summation(),
+            tree_tolerance: default::tree_tolerance(),
             form: default::form(),
             time_filter: default::zero(),
             trailers: default::trailers(),
@@ -332,6 +376,16 @@ impl WakeOptions {
             far_wake_turns: default::none(),
             release_radius: default::one(),
             relaxation: default::half(),
+        }
+    }
+
+    /// How the vortices are summed at the markers.
+    pub(crate) fn method(&self) -> Method {
+        let tolerance = self.tree_tolerance;
+        match self.summation {
+            Summation::Auto => Method::Auto { tolerance },
+            Summation::Direct => Method::Direct,
+            Summation::Tree => Method::Tree { tolerance },
         }
     }
 
@@ -436,6 +490,12 @@ impl WakeOptions {
             "time_filter",
             self.time_filter,
             "from 0 to less than 0.5, and 0 unless form is displacement",
+        )?;
+        demand(
+            (1e-12..=0.1).contains(&self.tree_tolerance),
+            "tree_tolerance",
+            self.tree_tolerance,
+            "from 1e-12 to 0.1",
         )?;
         let full_span = self.trailers == Trailers::FullSpan;
         demand(

@@ -89,7 +89,7 @@ pub(crate) fn push_kind(
 }
 
 /// Segments of one rotor instant, packed once for markers and stations.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub(crate) struct WakeSources {
     n_blades: usize,
     /// As markers see them.

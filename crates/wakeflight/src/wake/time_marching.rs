@@ -4,7 +4,7 @@ use super::error::{WakeError, finite, length};
 use super::filament::{aged_core_squared, distance, stretched_core_squared};
 use super::geometry::{BladeGrid, release_points};
 use super::inboard_sheet;
-use super::options::{BladeState, Form, HubMotion, Predictor, Scheme, WakeOptions};
+use super::options::{BladeState, Evaluation, Form, HubMotion, Predictor, Scheme, WakeOptions};
 use super::relaxation::{RelaxationWake, tip_rows};
 use super::stencils::{Cell, unknown_corner};
 use super::trailers;
@@ -54,13 +54,20 @@ pub struct TimeMarchingWake<F: InducedVelocity = Induction> {
 }
 
 /// What a step is made in; nothing of it outlives the step but its room.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 struct Work {
     field: FieldWork,
     next: RotorInstant,
     carrier: Vec<[f64; 3]>,
     unknown: Vec<[f64; 3]>,
     at_new: Vec<[f64; 3]>,
+}
+
+impl Clone for Work {
+    /// Empty: a copy of a wake needs none of it.
+    fn clone(&self) -> Self {
+        Self::default()
+    }
 }
 
 impl<F: InducedVelocity> TimeMarchingWake<F> {
@@ -126,6 +133,12 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
         Ok(())
     }
 
+    /// Replaces the fields that a step evaluates.
+    pub fn set_evaluation(&mut self, evaluation: Evaluation) {
+        self.options.evaluation = evaluation;
+        self.velocity_is_known = false;
+    }
+
     /// Advances by one step of azimuth to the given hub motion, blades (n_blades) and bound circulation
     /// (n_blades, n_stations) [m2/s]. On an error the wake is unchanged.
     pub fn step(
@@ -188,7 +201,11 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
         std::mem::swap(&mut self.levels[0], unknown);
         std::mem::swap(&mut self.instant, next);
         std::mem::swap(&mut self.carrier, carrier);
-        self.velocity_is_known = false;
+        // what the last evaluation saw was the predicted wake
+        self.velocity_is_known = self.options.evaluation == Evaluation::Pec;
+        if self.velocity_is_known {
+            std::mem::swap(&mut self.velocity, at_new);
+        }
         self.hub = hub;
         self.blades.copy_from_slice(blades);
         self.steps += 1;
@@ -284,7 +301,7 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
     pub fn set_circulation(&mut self, circulation: &[f64]) -> Result<(), WakeError> {
         length("circulation", circulation.len(), self.instant.circulation.len())?;
         finite("circulation", circulation)?;
-        self.velocity_is_known = false;
+        self.velocity_is_known &= self.options.evaluation == Evaluation::Pec;
         self.instant.circulation.copy_from_slice(circulation);
         for (blade, gamma) in circulation.chunks_exact(self.options.n_stations).enumerate() {
             release_circulation(&self.options, &self.grid, &mut self.instant, blade, gamma);
@@ -304,8 +321,9 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
     ///
     /// For the last call before a step: [`set_circulation`](Self::set_circulation) makes that velocity void.
     pub fn inflow_far_before_step(&mut self, inflow: &mut Vec<f64>) {
+        let markers = (!self.velocity_is_known).then_some((&self.hub, &mut self.velocity));
         self.velocity_is_known = true;
-        let wanted = Wanted { markers: Some((&self.hub, &mut self.velocity)), stations: Some(inflow) };
+        let wanted = Wanted { markers, stations: Some(inflow) };
         self.evaluations += field_at(&self.field, &self.options, &self.instant, &mut self.work.field, wanted);
     }
 

@@ -9,11 +9,13 @@ use crate::vortex::core::Core;
 use crate::vortex::curvature::curvature_velocity;
 use crate::vortex::induced_velocity::Segments;
 use crate::vortex::sources::{Group, Part, add_groups_velocity};
+use crate::vortex::tree::{Method, add_part_velocity_by};
 
 /// Where induced velocity comes from.
 pub trait InducedVelocity: Clone + Send + Sync {
-    /// Adds to the velocity of every group what is induced at its points [m/s, `_h`], given the vortices it sees.
-    fn add(&self, groups: &mut [Group<'_>]);
+    /// Adds to the velocity of every group what is induced at its points [m/s, `_h`], given the vortices it sees;
+    /// the number of segment evaluations.
+    fn add(&self, groups: &mut [Group<'_>]) -> u64;
 
     /// Velocity that a marker owes to the curvature of its own filament [m/s], given its neighbours.
     fn self_induced(
@@ -33,18 +35,39 @@ pub struct VortexSegments {
     pub core_distance: CoreDistance,
     /// Whether markers get the velocity of the arc that their two chords lack.
     pub curvature_correction: bool,
+    /// How the whole wake is summed.
+    pub method: Method,
 }
 
 impl VortexSegments {
     /// As the options say.
     pub fn new(options: &WakeOptions) -> Self {
-        Self { core_distance: options.core_distance, curvature_correction: options.curvature_correction }
+        Self {
+            core_distance: options.core_distance,
+            curvature_correction: options.curvature_correction,
+            method: options.method(),
+        }
     }
 }
 
 impl InducedVelocity for VortexSegments {
-    fn add(&self, groups: &mut [Group<'_>]) {
-        add_groups_velocity(groups, Core::Vatistas2, self.core_distance.into());
+    fn add(&self, groups: &mut [Group<'_>]) -> u64 {
+        let (core, distance) = (Core::Vatistas2, self.core_distance.into());
+        let mut evaluations = 0;
+        let mut direct = Vec::with_capacity(groups.len());
+        for Group { points, sources, velocity } in groups {
+            match sources {
+                // what sees parts of the wake are stations: too few for a tree of their own
+                [whole] if self.method.tree(points.len(), whole.len()).is_some() => {
+                    let by = self.method;
+                    let account = add_part_velocity_by(by, points, *whole, core, distance, velocity);
+                    evaluations += account.segment_evaluations;
+                }
+                _ => direct.push(Group { points, sources, velocity }),
+            }
+        }
+        add_groups_velocity(&mut direct, core, distance);
+        evaluations + direct.iter().map(Group::evaluations).sum::<u64>()
     }
 
     fn self_induced(
@@ -68,12 +91,13 @@ impl InducedVelocity for VortexSegments {
 pub struct Prescribed<F>(pub F);
 
 impl<F: Fn([f64; 3]) -> [f64; 3] + Clone + Send + Sync> InducedVelocity for Prescribed<F> {
-    fn add(&self, groups: &mut [Group<'_>]) {
-        for group in groups {
+    fn add(&self, groups: &mut [Group<'_>]) -> u64 {
+        for group in groups.iter_mut() {
             for (v, p) in group.velocity.iter_mut().zip(group.points) {
                 add_to(v, (self.0)(*p));
             }
         }
+        groups.iter().map(Group::evaluations).sum()
     }
 
     fn self_induced(&self, _: [f64; 3], _: [f64; 3], _: [f64; 3], _: f64, _: f64) -> [f64; 3] {
@@ -114,7 +138,7 @@ pub enum Induction {
 }
 
 impl InducedVelocity for Induction {
-    fn add(&self, groups: &mut [Group<'_>]) {
+    fn add(&self, groups: &mut [Group<'_>]) -> u64 {
         match self {
             Self::Vortices(vortices) => vortices.add(groups),
             Self::Linear(field) => Prescribed(|p| field.at(p)).add(groups),
@@ -210,10 +234,17 @@ impl RotorInstant {
 }
 
 /// What a field at one instant is made with: the vortices packed, velocities at the stations. Kept from step to step.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub struct FieldWork {
     sources: WakeSources,
     station_velocity: Vec<[f64; 3]>,
+}
+
+impl Clone for FieldWork {
+    /// Empty: nothing in it outlives the field.
+    fn clone(&self) -> Self {
+        Self::default()
+    }
 }
 
 /// Where the field of one instant is wanted: at markers, at stations, or at both in one pass.
@@ -256,8 +287,7 @@ pub fn field_at<F: InducedVelocity>(
     {
         groups.push(Group { points, sources: parts, velocity });
     }
-    let evaluations = groups.iter().map(Group::evaluations).sum();
-    field.add(&mut groups);
+    let evaluations = field.add(&mut groups);
 
     if let Some((_, velocity)) = markers {
         add_self_induced(field, &instant.free, velocity);

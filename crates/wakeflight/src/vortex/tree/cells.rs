@@ -2,6 +2,7 @@
 
 use super::harmonics::{Moments, N_COEFFICIENTS};
 use super::order::{bounds, distance, middle, split};
+use crate::vortex::sources::Part;
 use crate::vortex::strands::{Strand, Strands};
 use std::ops::Range;
 
@@ -47,17 +48,17 @@ pub(super) struct Cells {
 
 /// What the tree is made of: the segments in their first order.
 struct Given<'a> {
-    sources: &'a Strands,
+    sources: Part<'a>,
     start: Vec<[f64; 3]>,
     middle: Vec<[f64; 3]>,
 }
 
 impl Cells {
     /// Divides `sources` in halves along the longest side until few segments are together.
-    pub fn new(sources: &Strands) -> Self {
+    pub fn new(sources: Part<'_>) -> Self {
         let mut start = Vec::with_capacity(sources.pieces.len());
         let mut pieces = sources.pieces.iter();
-        for strand in &sources.strands {
+        for strand in sources.strands {
             let mut from = strand.start;
             for piece in pieces.by_ref().take(strand.n_pieces) {
                 start.push(from);
@@ -66,7 +67,7 @@ impl Cells {
         }
         let middle = start
             .iter()
-            .zip(&sources.pieces)
+            .zip(sources.pieces)
             .map(|(from, piece)| std::array::from_fn(|c| 0.5 * (from[c] + piece.end[c])))
             .collect();
         let mut order: Vec<usize> = (0..start.len()).collect();

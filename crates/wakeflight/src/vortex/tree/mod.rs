@@ -16,10 +16,9 @@ mod sum;
 mod tests;
 
 use super::core::{Core, CoreDistance};
-use super::dispatch::InstructionSet;
-use super::induced_velocity::{Filaments, Segments, add};
+use super::induced_velocity::{Filaments, Segments};
 use super::models::for_core;
-use super::strands::Strands;
+use super::sources::{Group, Part, add_groups_velocity};
 use cells::Cells;
 use sum::{Acceptance, Found, TreeSum};
 
@@ -38,6 +37,19 @@ pub enum Method {
         /// As of the tree.
         tolerance: f64,
     },
+}
+
+impl Method {
+    /// Tolerance of the tree where it is to be taken for so many points and segments.
+    #[must_use]
+    pub fn tree(self, n_points: usize, n_segments: usize) -> Option<f64> {
+        match self {
+            Self::Tree { tolerance } => Some(tolerance),
+            Self::Auto { tolerance } => tree_is_faster(n_points, n_segments).then_some(tolerance),
+            Self::Direct => None,
+        }
+        .filter(|_| n_points > 0 && n_segments > 0)
+    }
 }
 
 /// Error of the tree over the largest induced velocity, where nothing else is asked for.
@@ -64,11 +76,12 @@ const LEAST: usize = 512;
 /// Points at which the direct sum tells how large velocities are.
 const SAMPLES: usize = 64;
 /// Estimated error of one cell over the error allowed of all: the estimate is a bound of one sign, what is left of many
-/// cells cancels. With 2 the largest error measured was a fifth of what is allowed.
-const SHARE: f64 = 2.0;
+/// cells cancels, less so along vortex sheets. With 0.5 the largest error measured was half of what is allowed, in the
+/// lattice of a full-span wake; with 2 it was a fifth of it for separate filaments, but twice what is allowed in a lattice.
+const SHARE: f64 = 0.5;
 
-/// Whether the tree is faster at its default tolerance, from 4096 points and segments on: measured on one core for wakes of helical filaments, as many
-/// points as segments.
+/// Whether the tree is faster at its default tolerance, from 4096 points and segments on: measured on one core for wakes of
+/// helical filaments and for full-span lattices (two segments for each point), where 3000 are as fast either way.
 #[must_use]
 pub fn tree_is_faster(n_points: usize, n_segments: usize) -> bool {
     let both = (n_points as f64) * (n_segments as f64);
@@ -78,8 +91,7 @@ pub fn tree_is_faster(n_points: usize, n_segments: usize) -> bool {
 /// Adds to `velocity` the velocity that `filaments` induce at `points` [m/s], by the method of choice.
 ///
 /// The error of the tree is below `tolerance` times the largest induced velocity at the points: not a theorem, but what
-/// holds in every test, at the default with a margin of two and more (at 1e-5 and the distance to the line 9e-6 was
-/// measured); [`Account::truncation_bound`] is a theorem.
+/// holds in every test, at the default with a margin of two and more; [`Account::truncation_bound`] is a theorem.
 pub fn add_filaments_velocity_by(
     method: Method,
     points: &[[f64; 3]],
@@ -88,7 +100,7 @@ pub fn add_filaments_velocity_by(
     core_distance: CoreDistance,
     velocity: &mut [[f64; 3]],
 ) -> Account {
-    add_by(method, points, &filaments.strands(core), core, core_distance, velocity)
+    add_part_velocity_by(method, points, Part::of(&filaments.strands(core)), core, core_distance, velocity)
 }
 
 /// As [`add_filaments_velocity_by`], for separate segments.
@@ -100,28 +112,25 @@ pub fn add_segments_velocity_by(
     core_distance: CoreDistance,
     velocity: &mut [[f64; 3]],
 ) -> Account {
-    add_by(method, points, &segments.strands(core), core, core_distance, velocity)
+    add_part_velocity_by(method, points, Part::of(&segments.strands(core)), core, core_distance, velocity)
 }
 
-fn add_by(
+/// As [`add_filaments_velocity_by`], for segments that are packed.
+pub fn add_part_velocity_by(
     method: Method,
     points: &[[f64; 3]],
-    strands: &Strands,
+    part: Part<'_>,
     core: Core,
     core_distance: CoreDistance,
     velocity: &mut [[f64; 3]],
 ) -> Account {
-    let n_segments = strands.pieces.len();
     let direct = |velocity: &mut [[f64; 3]], points: &[[f64; 3]]| {
-        add(points, strands, core, core_distance, InstructionSet::widest(), velocity);
-        (points.len() * n_segments) as u64
+        let sources = [part];
+        let mut group = [Group { points, sources: &sources, velocity }];
+        add_groups_velocity(&mut group, core, core_distance);
+        group[0].evaluations()
     };
-    let tolerance = match method {
-        Method::Tree { tolerance } => Some(tolerance),
-        Method::Auto { tolerance } => tree_is_faster(points.len(), n_segments).then_some(tolerance),
-        Method::Direct => None,
-    };
-    let Some(tolerance) = tolerance.filter(|_| !points.is_empty() && n_segments > 0) else {
+    let Some(tolerance) = method.tree(points.len(), part.len()) else {
         return Account { segment_evaluations: direct(velocity, points), ..Account::default() };
     };
 
@@ -130,7 +139,7 @@ fn add_by(
     let for_sample = direct(&mut sampled, &sample);
     let largest = sampled.iter().fold(0.0f64, |m, v| m.max(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])).sqrt();
 
-    let cells = Cells::new(strands);
+    let cells = Cells::new(part);
     let acceptance = Acceptance { core, core_distance, tolerance: SHARE * tolerance * largest };
     let mut found = Found::default();
     for_core(core, core_distance, TreeSum { points, cells: &cells, acceptance, velocity, found: &mut found });

@@ -57,9 +57,9 @@ impl Acceptance {
         let ratio_sq = ratio * ratio;
         match (self.core, self.core_distance) {
             (Core::Singular, _) => 0.0,
-            // slow decay: of one sign for all segments, what many cells leave out does not cancel
-            (Core::RosenheadMoore | Core::Scully, _) => ONE_SIGN * 1.5 * ratio_sq,
-            (_, CoreDistance::Line) => 1.5 * ratio_sq,
+            // slow decay: of one sign for all segments, what many cells leave out does not cancel; nor does it along the
+            // lines of the parallel segments of a vortex sheet
+            (Core::RosenheadMoore | Core::Scully, _) | (_, CoreDistance::Line) => ONE_SIGN * 1.5 * ratio_sq,
             (Core::Vatistas2, _) => 0.5 * ratio_sq * ratio_sq,
             (Core::Rankine, _) => f64::from(u8::from(ratio > 1.0)),
             (Core::LambOseen, _) => (-LAMB_OSEEN_ALPHA / ratio_sq).exp(),
