@@ -124,7 +124,7 @@ class Stand:
         n_stations: int,
         reference_pitch: float,
         higher: Sequence[tuple[int, float, float]],
-        thin_sections: bool | None,
+        blade_model: str,
         windmill: bool,
     ) -> Stand: ...
     def rotor(self) -> dict[str, Any]: ...

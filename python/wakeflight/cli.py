@@ -398,7 +398,9 @@ def tunnel(
     density: Annotated[str | None, typer.Option("--density", help='"1.19 kg/m3"')] = None,
     speed_of_sound: Annotated[str | None, typer.Option("--speed-of-sound", help='"342 m/s"')] = None,
     blades: Annotated[str | None, typer.Option("--blades", help="rigid, flexible; the file's own")] = None,
-    blade_model: Annotated[str, typer.Option("--blade-model", help="lifting-line, weissinger")] = "lifting-line",
+    blade_model: Annotated[
+        str, typer.Option("--blade-model", help="lifting-line, second-order, weissinger")
+    ] = "lifting-line",
     revolutions: Annotated[int | None, typer.Option("--revolutions", help="revolutions of the marching wake")] = None,
     averaged: Annotated[int | None, typer.Option("--averaged", help="of them, the last ones averaged")] = None,
     then: Annotated[

@@ -25,6 +25,7 @@ _CHOICES = {
     "form": ("displacement", "position"),
     "trailers": ("tip", "full-span"),
     "shed_wake": ("none", "beyond", "all"),
+    "far_wake": ("repeat", "cylinder"),
     "tip_strength": ("equivalent", "max", "mean"),
     "inboard_wake": ("none", "sheet"),
     "core_distance": ("line", "segment"),
@@ -130,8 +131,11 @@ class _Wake:
     """Core of the bound vortices over the chord."""
     station_core_floor: float = 0.25
     """Smallest core seen by blade stations, over the chord."""
+    far_wake: str = "repeat"
+    """What goes on behind the free filaments: repeats of the last turn, or, for tip vortices alone in hover and climb, a
+    semi-infinite vortex cylinder (`cylinder`) [branlard2014]."""
     far_wake_turns: int = 0
-    """Turns of the far wake added beyond the free filaments: 2 in hover."""
+    """Repeats of the last turn beyond the free filaments: 2 in hover."""
     release_radius: float = 1.0
     """Where the tip vortex leaves the blade, over the radius."""
     n_stations: int = 20
@@ -232,6 +236,7 @@ class _Wake:
             "near_wake_segments": self.near_wake_segments,
             "bound_core": float(self.bound_core),
             "station_core_floor": float(self.station_core_floor),
+            "far_wake": self.far_wake,
             "far_wake_turns": self.far_wake_turns,
             "release_radius": float(self.release_radius),
             "relaxation": float(getattr(self, "relaxation", 0.5)),

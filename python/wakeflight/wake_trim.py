@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from . import _core
+from .errors import InputError
 from .exchange import MarchingExchange
 from .model import CompiledRotor
 
@@ -62,7 +63,10 @@ class WakeInTrim:
         flap, lead = core.equivalent_angles(q)
         stick = np.asarray(stick)
         if self.relaxation is None:
-            self.relaxation = _core.RelaxationWake(model.wake_options, *hub, self.mean_inflow)
+            try:
+                self.relaxation = _core.RelaxationWake(model.wake_options, *hub, self.mean_inflow)
+            except ValueError as reason:
+                raise InputError(f"wake: {reason}") from reason
             # before there is a wake, the map given serves as total inflow
             self._solve_circulation(y, stick, q, q_dot, near_wake_in_far=True)
         else:

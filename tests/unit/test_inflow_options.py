@@ -16,7 +16,7 @@ KEYS = (
     "predictor evaluation summation tree_tolerance form time_filter trailers n_trailers trailer_core shed_wake tip_strength "
     "tip_strength_inner inboard_wake n_sheet sheet_factor core_radius core_growth core_stretching "
     "core_distance curvature_correction rates near_wake_angle near_wake_segments bound_core station_core_floor "
-    "far_wake_turns release_radius relaxation "
+    "far_wake far_wake_turns release_radius relaxation "
 )
 
 

@@ -11,7 +11,7 @@ use wakeflight::blade::aerodynamics::{Air, SectionAir};
 use wakeflight::blade::kinematics::ModalMotion;
 use wakeflight::blade::loads::{BladeInflow, HubMotion};
 use wakeflight::blade::model::Discretisation;
-use wakeflight::blade::thin_section::ThinSection;
+use wakeflight::blade::thin_section::{SectionLift, ThinSection};
 use wakeflight::inflow::pitt_peters::{MassFlow, PittPeters};
 use wakeflight::integrate::stand::BladeStep;
 use wakeflight::rotor::circulation::BladeInstant;
@@ -104,7 +104,7 @@ impl PyStand {
         n_stations: usize,
         reference_pitch: f64,
         higher: Vec<(usize, f64, f64)>,
-        thin_sections: Option<bool>,
+        blade_model: &str,
         windmill: bool,
     ) -> PyResult<Self> {
         let data: RotorData = serde_json::from_str(data_json).map_err(invalid)?;
@@ -112,7 +112,14 @@ impl PyStand {
         let rigging = Rigging { matrix: [[0.0; 4]; 4], offset: [0.0; 4], phase: 0.0 };
         let tip_loss_factor = if free_wake { 1.0 } else { data.tip_loss_factor };
         let mut rotor = Rotor::new(&data, rigging, tip_loss_factor, &discretisation).map_err(invalid)?;
-        rotor.thin = thin_sections.map(|factor| ThinSection::of(&data.airfoil, factor));
+        let lift = match blade_model {
+            "lifting-line" => None,
+            "second-order" => Some(SectionLift::Tables),
+            "weissinger" => Some(SectionLift::Tangency { prandtl_glauert: true }),
+            "weissinger-incompressible" => Some(SectionLift::Tangency { prandtl_glauert: false }),
+            other => return Err(invalid(format!("blade_model = {other}: not a model of the blade"))),
+        };
+        rotor.thin = lift.map(|lift| ThinSection::of(&data.airfoil, lift));
         let air = Air { density, speed_of_sound };
         let mass_flow = if windmill { MassFlow::WindmillBrake } else { MassFlow::Momentum };
         let pitt_peters = PittPeters { mass_flow, ..PittPeters::default() };

@@ -30,6 +30,9 @@ from .solve import first_guess, solution, with_dynamic_inflow
 if TYPE_CHECKING:
     from ..aircraft import Aircraft, Rotor
 
+BLADE_MODELS = ("lifting-line", "second-order", "weissinger")
+"""Models of the blade's lift, the default first."""
+
 __all__ = ["Tunnel", "check", "configured", "tunnel"]
 
 
@@ -94,9 +97,10 @@ def tunnel(
     omega, rpm : rotor speed, as text with a unit or as a number of revolutions per minute; the rotor's own.
     altitude, density, speed_of_sound : standard atmosphere, and what a tunnel states instead.
     blades : `rigid` takes flexibility away: blades move about their hinges alone, or not at all where clamped.
-    blade_model : `lifting-line` with the section tables, or `weissinger`: flow tangency at three quarters of the chord,
-        thin sections (2 pi), `prandtl_glauert` factor; drag and moment from the tables at the angle of the same lift. It has
-        no stall and no meaning in reverse flow, and needs a free wake.
+    blade_model : `lifting-line`: section tables at the angle of attack of the quarter chord; `second-order`: the same
+        tables at the angle of three quarters of the chord, where the finite length of the bound line is felt; `weissinger`:
+        flow tangency there, thin sections (2 pi), `prandtl_glauert` factor, drag and moment from the tables at the angle of
+        the same lift, no stall. The last two matter for stubby blades, need a free wake and have no meaning in reverse flow.
     n_harmonics : harmonics of the blade motion.
     revolutions, averaged : revolutions of the marching wake and, of them, the last ones in the means; defaults
         12 and 4 forward, 24 and 12 in hover, 40 and 20 in axial descent. Ends early where the wake is periodic.
@@ -117,8 +121,8 @@ def tunnel(
     }
     rotor, condition, model = _prepared(aircraft, inflow, given)
     options = _marching_options(revolutions, averaged, model)
-    thin = bool(prandtl_glauert) if blade_model == "weissinger" else None
-    simple, wake = _compiled(rotor, condition, model, n_harmonics, thin)
+    sections = "weissinger-incompressible" if blade_model == "weissinger" and not prandtl_glauert else blade_model
+    simple, wake = _compiled(rotor, condition, model, n_harmonics, sections)
     progress.phase("rotor on the stand", None)
     if wake is not None and wake.is_annular:
         found = on_annuli(wake, with_dynamic_inflow(simple), progress)
@@ -187,18 +191,19 @@ def _prepared(aircraft: Any, inflow: Any, given: dict[str, Any]) -> tuple[Rotor,
     )
     model = stand_inflow(inflow, condition.regime(rotor.omega * rotor.radius))
     model.step(rotor)
-    if given["blade_model"] not in ("lifting-line", "weissinger"):
-        raise InputError.of("blade_model", given["blade_model"], "allowed: lifting-line, weissinger")
+    blade_model = given["blade_model"]
+    if blade_model not in BLADE_MODELS:
+        raise InputError.of("blade_model", blade_model, f"allowed: {', '.join(BLADE_MODELS)}")
     if not isinstance(given["prandtl_glauert"], bool):
         raise InputError.of("prandtl_glauert", given["prandtl_glauert"], "must be True or False")
     if model.name == "annular":
         check_axial(condition, rotor.omega * rotor.radius)
     if model.name in ("relaxation", "time-marching"):
         model.core_options(rotor)
-        if given["blade_model"] == "weissinger" and model.near_wake_angle == 0.0:
-            raise InputError.of("near_wake_angle", "0 deg", "a Weissinger blade needs a near wake")
-    elif given["blade_model"] == "weissinger":
-        raise InputError.of("blade_model", "weissinger", "needs a free wake: inflow relaxation or time-marching")
+        if blade_model != BLADE_MODELS[0] and model.near_wake_angle == 0.0:
+            raise InputError.of("near_wake_angle", "0 deg", f"a {blade_model} blade needs a near wake")
+    elif blade_model != BLADE_MODELS[0]:
+        raise InputError.of("blade_model", blade_model, "needs a free wake: inflow relaxation or time-marching")
     return rotor, condition, model
 
 
@@ -216,7 +221,7 @@ def _marching_options(revolutions: Any, averaged: Any, model: StandInflow) -> di
 
 
 def _compiled(
-    rotor: Rotor, condition: StandCondition, model: StandInflow, n_harmonics: int, thin_sections: bool | None
+    rotor: Rotor, condition: StandCondition, model: StandInflow, n_harmonics: int, blade_model: str
 ) -> tuple[StandModel, StandModel | None]:
     """The rotor with dynamic inflow, and with the free wake where that is asked for."""
     dynamic = model
@@ -232,7 +237,7 @@ def _compiled(
             simple = StandModel.build(rotor, condition, dynamic, n_harmonics, windmill=windmill)
         if dynamic is model:
             return simple, None
-        return simple, StandModel.build(rotor, condition, model, n_harmonics, thin_sections)
+        return simple, StandModel.build(rotor, condition, model, n_harmonics, blade_model)
     except ValueError as reason:
         if isinstance(reason, InputError):
             raise

@@ -60,8 +60,8 @@ class StandModel(CompiledRotor):
     inflow: StandInflow
     core: _core.Stand
     n_harmonics: int
-    thin_sections: bool | None = None
-    """None: lifting line with section tables; otherwise Weissinger, with (True) or without Prandtl-Glauert factor."""
+    blade_model: str = "lifting-line"
+    """As the core reads it: lifting-line, second-order, weissinger, weissinger-incompressible."""
     windmill: bool = False
     """Whether dynamic inflow takes the windmill brake state in descent: a result does, the start of a wake does not, since it
     must exist at any collective."""
@@ -74,7 +74,7 @@ class StandModel(CompiledRotor):
         condition: StandCondition,
         inflow: StandInflow,
         n_harmonics: int,
-        thin_sections: bool | None = None,
+        blade_model: str = "lifting-line",
         windmill: bool = False,
     ) -> StandModel:
         """Compile; the tip loss of the file acts with dynamic inflow alone. Gravity acts down the shaft."""
@@ -92,10 +92,10 @@ class StandModel(CompiledRotor):
             inflow.n_stations,
             d.reference_pitch,
             list(condition.higher),
-            thin_sections,
+            blade_model,
             windmill,
         )
-        return cls(rotor, condition, inflow, core, n_harmonics, thin_sections, windmill)
+        return cls(rotor, condition, inflow, core, n_harmonics, blade_model, windmill)
 
     def problem(self, inflow_map: np.ndarray | None) -> _core.StandProblem:
         """The equations on a held inflow map (n_azimuths, n_stations), or with dynamic inflow."""

@@ -25,6 +25,8 @@ EQUATION_TOLERANCE = 1e-6
 CHANGE_TOLERANCE = 1e-3
 """Change of pitch controls and blade harmonics [rad], and of thrust (relative), between passes on the wake."""
 MAX_OUTER = 15
+START = {"sweeps": 1, "max_loops": 4}
+"""Relaxation that starts a marching full-span wake in axial flow: free sheets do not settle there, time means do."""
 SETTLED = 2e-4
 """Change of inflow over its mean per revolution below which a marching wake counts as periodic."""
 
@@ -145,15 +147,15 @@ def dynamic_map(model: StandModel, problem: _core.StandProblem, x: np.ndarray, n
     return mean + np.outer(cosine * np.cos(psi) + sine * np.sin(psi), r)
 
 
-def on_relaxation(model: StandModel, start: Solution, progress: Progress | Silent) -> Solution:
-    """Blade motion and relaxation wake in turn until both rest; not resting is a status, not an error."""
+def on_relaxation(model: StandModel, start: Solution, progress: Progress | Silent, passes: int = MAX_OUTER) -> Solution:
+    """Blade motion and relaxation wake in turn until both rest, or `passes` times; not resting is a status, not an error."""
     inflow_map = dynamic_map(start.model, start.problem, start.x, model.steps_per_revolution)
     x = np.delete(start.x, slice(3, 6))
     wake = WakeInTrim(model, inflow_map)
     history: list[dict[str, float]] = []
     settled = False
     thrust = None
-    for outer in range(MAX_OUTER):
+    for outer in range(passes):
         problem = model.problem(inflow_map)
         before, x = x, solve_equations(model, problem, x)
         change = largest_change(model, problem, before, x)
@@ -321,12 +323,17 @@ def solution(
     progress.advance(1, "dynamic inflow")
     if model is None:
         return start
-    relaxed = model
-    if model.is_marching:
-        relaxation = trim_model(model.inflow)
-        regime = model.condition.regime(model.tip_speed)
-        if regime != "forward":
-            relaxation = replace(relaxation, relaxation=REGIME_OPTIONS[regime]["relaxation"])
-        relaxed = StandModel.build(model.aircraft, model.condition, relaxation, model.n_harmonics, model.thin_sections)
-    found = on_relaxation(relaxed, start, progress)
-    return on_marching(model, found, progress, **options) if model.is_marching else found
+    if not model.is_marching:
+        return on_relaxation(model, start, progress)
+    relaxation, regime = trim_model(model.inflow), model.condition.regime(model.tip_speed)
+    if regime != "forward":
+        relaxation = replace(relaxation, relaxation=REGIME_OPTIONS[regime]["relaxation"])
+    tumbling = regime != "forward" and model.inflow.trailers == "full-span"
+    if tumbling:
+        relaxation = replace(relaxation, **START)
+    relaxed = StandModel.build(model.aircraft, model.condition, relaxation, model.n_harmonics, model.blade_model)
+    found = on_relaxation(relaxed, start, progress, passes=1 if tumbling else MAX_OUTER)
+    if tumbling:
+        # no result, only a start
+        found.notes.clear()
+    return on_marching(model, found, progress, **options)

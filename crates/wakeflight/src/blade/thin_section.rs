@@ -1,5 +1,7 @@
-//! Thin sections of a Weissinger blade: circulation by flow tangency at three quarters of the chord, drag and moment from
-//! the tables at the angle that gives the same lift in two dimensions.
+//! Sections that meet the air at three quarters of the chord, where the blade's own bound line is felt.
+//!
+//! Weissinger: thin sections, circulation by flow tangency, drag and moment from the tables at the angle that gives the
+//! same lift in two dimensions. Second-order lifting line: lift, drag and moment from the tables at the angle there.
 
 use super::aerodynamics::{Air, SectionAir, StationGeometry, section_loads};
 use super::kinematics::{BladeAxes, SectionMotion};
@@ -11,33 +13,46 @@ use std::f64::consts::PI;
 /// Mach number beyond which the Prandtl-Glauert factor is held.
 const FACTOR_LIMIT: f64 = 0.9;
 
-/// The law of a thin section.
+/// Where the lift of a section comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SectionLift {
+    /// Flow tangency of a thin section.
+    Tangency {
+        /// Whether the circulation is 1/sqrt(1 - M^2) times the incompressible one.
+        prandtl_glauert: bool,
+    },
+    /// The tables, at the angle of attack and the Mach number of three quarters of the chord [johnson1986].
+    Tables,
+}
+
+/// The law of a section that meets the air at three quarters of the chord.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ThinSection {
     /// Angle of attack without lift [rad].
     pub zero_lift: f64,
-    /// Whether the circulation is 1/sqrt(1 - M^2) times the incompressible one.
-    pub prandtl_glauert: bool,
+    /// Where the lift comes from.
+    pub lift: SectionLift,
 }
 
 impl ThinSection {
     /// The law of an airfoil: its zero-lift angle at a low Mach number.
-    pub fn of(airfoil: &Airfoil, prandtl_glauert: bool) -> Self {
+    pub fn of(airfoil: &Airfoil, lift: SectionLift) -> Self {
         const LOW_MACH: f64 = 0.3;
-        let lift = |alpha: f64| airfoil.coefficients::<f64>(alpha, LOW_MACH).0;
+        let cl = |alpha: f64| airfoil.coefficients::<f64>(alpha, LOW_MACH).0;
         let (mut low, mut high) = (-15f64.to_radians(), 15f64.to_radians());
         for _ in 0..60 {
             let middle = 0.5 * (low + high);
-            if lift(middle) < 0.0 { low = middle } else { high = middle }
+            if cl(middle) < 0.0 { low = middle } else { high = middle }
         }
-        Self { zero_lift: 0.5 * (low + high), prandtl_glauert }
+        Self { zero_lift: 0.5 * (low + high), lift }
     }
 
     /// Air loads of a section: `wind` at the quarter chord, `wind_three_quarter` at three quarters (both relative to the
     /// point of the elastic axis, blade axes).
     ///
-    /// Gamma = pi c V_n/sqrt(1 - M^2), V_n the speed normal to the zero-lift line at three quarters of the chord;
-    /// c_l = 2 Gamma/(V c). The sign changes where the air comes from behind.
+    /// Tangency: Gamma = pi c V_n/sqrt(1 - M^2), V_n the speed normal to the zero-lift line at three quarters of the chord.
+    /// Tables: Gamma = c V c_l/2 of the air there. c_l = 2 Gamma/(V c) of the speed V at the quarter chord, whose air gives
+    /// lift and drag their directions. The sign changes where the air comes from behind.
     #[allow(clippy::too_many_arguments, reason = "those of a section, and the second wind")]
     pub fn air<S: Real>(
         &self,
@@ -58,16 +73,36 @@ impl ThinSection {
         let mach = speed / air.speed_of_sound;
 
         // tangency and the factor are those of the air at three quarters of the chord: circulation depends on it alone
-        let (s0, c0) = self.zero_lift.sin_cos();
         let three_quarter_c = wind_three_quarter.dot(c);
-        let normal = three_quarter_n * c0 + three_quarter_c * s0;
-        let ahead = if three_quarter_c.re() <= 0.0 { 1.0 } else { -1.0 };
         let speed_there =
             (three_quarter_c * three_quarter_c + three_quarter_n * three_quarter_n + 1e-12).sqrt();
         let mach_there = speed_there / air.speed_of_sound;
-        let factor = if self.prandtl_glauert && mach_there.re() < FACTOR_LIMIT {
+        let prandtl_glauert = match self.lift {
+            SectionLift::Tangency { prandtl_glauert } => prandtl_glauert,
+            SectionLift::Tables => {
+                let alpha = three_quarter_n.atan2(-three_quarter_c);
+                let (cl, cd, cm) = airfoil.coefficients(alpha, mach_there);
+                let cl = cl * speed_there / speed;
+                return section_loads(
+                    air,
+                    station,
+                    motion,
+                    wind_c,
+                    quarter_n,
+                    speed,
+                    omega,
+                    alpha,
+                    mach,
+                    [cl, cd, cm],
+                );
+            }
+        };
+        let (s0, c0) = self.zero_lift.sin_cos();
+        let normal = three_quarter_n * c0 + three_quarter_c * s0;
+        let ahead = if three_quarter_c.re() <= 0.0 { 1.0 } else { -1.0 };
+        let factor = if prandtl_glauert && mach_there.re() < FACTOR_LIMIT {
             S::one() / (S::one() - mach_there * mach_there).sqrt()
-        } else if self.prandtl_glauert {
+        } else if prandtl_glauert {
             S::cst(1.0 / (1.0 - FACTOR_LIMIT * FACTOR_LIMIT).sqrt())
         } else {
             S::one()

@@ -1,4 +1,5 @@
 //! Scalars and duals, frames and vectors, tables, small linear systems, wide vectors.
+pub mod elliptic;
 pub mod four;
 pub mod frames;
 pub mod jacobian;

@@ -1,6 +1,7 @@
 //! Straight vortex segments: core models and sums over many.
 pub mod core;
 pub mod curvature;
+pub mod cylinder;
 pub mod induced_velocity;
 pub mod sources;
 pub mod threads;

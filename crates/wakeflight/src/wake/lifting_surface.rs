@@ -98,7 +98,7 @@ pub fn weissinger_matrix(
     chords: &[f64],
 ) -> Result<Vec<f64>, WakeError> {
     options.validate()?;
-    hub.validate()?;
+    hub.validate(options)?;
     blade.validate()?;
     let n = options.n_stations;
     super::error::length("chords", chords.len(), n)?;

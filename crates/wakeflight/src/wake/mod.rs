@@ -4,6 +4,7 @@
 
 pub mod circulation;
 pub mod error;
+mod far_cylinder;
 pub mod filament;
 pub mod geometry;
 pub mod inboard_sheet;
@@ -26,7 +27,7 @@ pub use error::WakeError;
 pub use lifting_surface::weissinger_matrix;
 pub use near_wake::near_wake_matrix;
 pub use options::{
-    BladeState, CoreDistance, Evaluation, Form, HubMotion, InboardWake, Predictor, Scheme, ShedWake,
+    BladeState, CoreDistance, Evaluation, FarWake, Form, HubMotion, InboardWake, Predictor, Scheme, ShedWake,
     Summation, TipStrength, Trailers, WakeOptions,
 };
 pub use relaxation::{Norms, RelaxationWake, tip_rows};

@@ -19,7 +19,7 @@ pub fn near_wake_matrix(
     blade: &BladeState,
 ) -> Result<Vec<f64>, WakeError> {
     options.validate()?;
-    hub.validate()?;
+    hub.validate(options)?;
     blade.validate()?;
     Ok(matrix_of(options, &BladeGrid::new(options), hub, blade))
 }

@@ -104,6 +104,16 @@ pub enum ShedWake {
     All,
 }
 
+/// What goes on behind the old ends of the free filaments.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FarWake {
+    /// `far_wake_turns` repeats of the last turn; nothing where that is 0.
+    Repeat,
+    /// A semi-infinite vortex cylinder; tip vortices alone, in hover and climb.
+    Cylinder,
+}
+
 /// Distance that enters the core factor of a segment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -226,6 +236,9 @@ pub struct WakeOptions {
     /// Least core radius in the inflow at the blades (chords); not for the near wake.
     #[serde(default = "default::quarter")]
     pub station_core_floor: f64,
+    /// What goes on behind the free filaments.
+    #[serde(default = "default::far_wake")]
+    pub far_wake: FarWake,
     /// Repeats of the last turn behind the free filaments.
     #[serde(default = "default::none")]
     pub far_wake_turns: usize,
@@ -272,6 +285,9 @@ mod default {
     }
     pub fn shed_wake() -> ShedWake {
         ShedWake::Beyond
+    }
+    pub fn far_wake() -> FarWake {
+        FarWake::Repeat
     }
     pub fn tip_strength() -> TipStrength {
         TipStrength::Equivalent
@@ -373,6 +389,7 @@ impl WakeOptions {
             near_wake_segments: default::near_wake_segments(),
             bound_core: default::quarter(),
             station_core_floor: default::quarter(),
+            far_wake: default::far_wake(),
             far_wake_turns: default::none(),
             release_radius: default::one(),
             relaxation: default::half(),
@@ -555,6 +572,16 @@ impl WakeOptions {
             "not negative",
         )?;
         demand(
+            self.far_wake == FarWake::Repeat
+                || markers.is_some_and(|n| n >= 2 * self.steps_per_revolution)
+                    && self.trailers == Trailers::Tip
+                    && self.inboard_wake == InboardWake::None
+                    && self.far_wake_turns == 0,
+            "far_wake",
+            "cylinder",
+            "for tip vortices of at least 2 turns, without inboard wake and far_wake_turns",
+        )?;
+        demand(
             self.far_wake_turns == 0 || markers.is_some_and(|n| n >= 2 * self.steps_per_revolution),
             "far_wake_turns",
             self.far_wake_turns,
@@ -602,10 +629,19 @@ impl HubMotion {
         ]
     }
 
-    /// Refuses components that are not finite.
-    pub(crate) fn validate(&self) -> Result<(), WakeError> {
+    /// Refuses components that are not finite, and a wind across a far wake that is a cylinder.
+    pub(crate) fn validate(&self, options: &WakeOptions) -> Result<(), WakeError> {
         finite("hub velocity", &self.velocity)?;
-        finite("hub rates", &self.rates)
+        finite("hub rates", &self.rates)?;
+        let across = self.velocity[0].hypot(self.velocity[1]) / options.tip_speed();
+        if options.far_wake == FarWake::Cylinder && (across > 0.01 || self.velocity[2] < 0.0) {
+            return Err(WakeError::InvalidOption {
+                field: "far_wake",
+                value: "cylinder".into(),
+                allowed: "in hover and climb only, repeat elsewhere".into(),
+            });
+        }
+        Ok(())
     }
 }
 

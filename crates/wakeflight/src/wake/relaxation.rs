@@ -70,7 +70,7 @@ impl<F: InducedVelocity> RelaxationWake<F> {
         field: F,
     ) -> Result<Self, WakeError> {
         options.validate()?;
-        hub.validate()?;
+        hub.validate(&options)?;
         finite("mean_inflow", &[mean_inflow])?;
         let n_psi = options.steps_per_revolution;
         let (n_k, n_t, n_sheet) =
@@ -110,7 +110,7 @@ impl<F: InducedVelocity> RelaxationWake<F> {
         circulation: &[f64],
     ) -> Result<(), WakeError> {
         let (n_psi, n_r) = (self.options.steps_per_revolution, self.options.n_stations);
-        hub.validate()?;
+        hub.validate(&self.options)?;
         length("blades_by_azimuth", blades_by_azimuth.len(), n_psi)?;
         length("circulation", circulation.len(), n_psi * n_r)?;
         if let Some(index) = blades_by_azimuth.iter().position(|b| !(b.0.is_finite() && b.1.is_finite())) {

@@ -338,7 +338,7 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
         blades: &[BladeState],
         circulation: &[f64],
     ) -> Result<(), WakeError> {
-        hub.validate()?;
+        hub.validate(&self.options)?;
         length("blades", blades.len(), self.options.n_blades)?;
         length("circulation", circulation.len(), self.instant.circulation.len())?;
         finite("circulation", circulation)?;

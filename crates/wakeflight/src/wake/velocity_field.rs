@@ -1,12 +1,14 @@
 //! Velocity of the air relative to the hub axes: every vortex of the rotor at one instant, and the wind.
 
 use super::error::{WakeError, finite};
+use super::far_cylinder::far_cylinder;
 use super::filament::Filaments;
 use super::geometry::{BladeGrid, BladeLine};
 use super::options::{BladeState, CoreDistance, HubMotion, WakeOptions};
 use super::sources::{KINDS, SEEN, WakeSources, push_kind};
 use crate::vortex::core::Core;
 use crate::vortex::curvature::curvature_velocity;
+use crate::vortex::cylinder::VortexCylinder;
 use crate::vortex::induced_velocity::Segments;
 use crate::vortex::sources::{Group, Part, add_groups_velocity};
 use crate::vortex::tree::{Method, add_part_velocity_by};
@@ -16,6 +18,9 @@ pub trait InducedVelocity: Clone + Send + Sync {
     /// Adds to the velocity of every group what is induced at its points [m/s, `_h`], given the vortices it sees;
     /// the number of segment evaluations.
     fn add(&self, groups: &mut [Group<'_>]) -> u64;
+
+    /// Adds what the far wake's cylinder induces; nothing where the velocity is prescribed.
+    fn add_far(&self, _groups: &mut [Group<'_>], _cylinder: &VortexCylinder) {}
 
     /// Velocity that a marker owes to the curvature of its own filament [m/s], given its neighbours.
     fn self_induced(
@@ -68,6 +73,14 @@ impl InducedVelocity for VortexSegments {
         }
         add_groups_velocity(&mut direct, core, distance);
         evaluations + direct.iter().map(Group::evaluations).sum::<u64>()
+    }
+
+    fn add_far(&self, groups: &mut [Group<'_>], cylinder: &VortexCylinder) {
+        for group in groups {
+            for (point, v) in group.points.iter().zip(group.velocity.iter_mut()) {
+                add_to(v, cylinder.velocity(*point));
+            }
+        }
     }
 
     fn self_induced(
@@ -142,6 +155,12 @@ impl InducedVelocity for Induction {
         match self {
             Self::Vortices(vortices) => vortices.add(groups),
             Self::Linear(field) => Prescribed(|p| field.at(p)).add(groups),
+        }
+    }
+
+    fn add_far(&self, groups: &mut [Group<'_>], cylinder: &VortexCylinder) {
+        if let Self::Vortices(vortices) = self {
+            vortices.add_far(groups, cylinder);
         }
     }
 
@@ -288,6 +307,9 @@ pub fn field_at<F: InducedVelocity>(
         groups.push(Group { points, sources: parts, velocity });
     }
     let evaluations = field.add(&mut groups);
+    if let Some(cylinder) = far_cylinder(options, &instant.free) {
+        field.add_far(&mut groups, &cylinder);
+    }
 
     if let Some((_, velocity)) = markers {
         add_self_induced(field, &instant.free, velocity);
@@ -331,7 +353,11 @@ pub fn point_velocity<F: InducedVelocity>(
     let mut sources = WakeSources::default();
     sources.pack(options, instant, false);
     let whole = [sources.whole()];
-    field.add(&mut [Group { points, sources: &whole, velocity: &mut velocity }]);
+    let mut groups = [Group { points, sources: &whole, velocity: &mut velocity }];
+    field.add(&mut groups);
+    if let Some(cylinder) = far_cylinder(options, &instant.free) {
+        field.add_far(&mut groups, &cylinder);
+    }
     velocity
 }
 

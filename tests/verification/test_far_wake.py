@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""The end of a hovering wake, and blades whose sections meet the air at three quarters of the chord."""
+
+import pytest
+
+import wakeflight as wf
+
+
+def hover(rotor, blade_model="lifting-line", **options):
+    wake = wf.RelaxationWake(azimuth_step="15 deg", relaxation=0.3, n_stations=12, **options)
+    return wf.tunnel(rotor, collective="8 deg", inflow=wake, blade_model=blade_model)
+
+
+def test_closed_end_makes_a_hovering_wake_independent_of_its_turns(two_blades):
+    # from 4 to 6 turns; without closure the thrust still changes by per cent
+    closed = [hover(two_blades, turns=t, far_wake="cylinder").ct for t in (4, 6)]
+    cut = [hover(two_blades, turns=t).ct for t in (4, 6)]
+    assert closed[1] == pytest.approx(closed[0], rel=2e-3)
+    assert abs(cut[1] / cut[0] - 1) > 5 * abs(closed[1] / closed[0] - 1)
+    # what the repeats of the last turn approach
+    repeats = hover(two_blades, turns=4, far_wake_turns=20).ct
+    assert closed[0] == pytest.approx(repeats, rel=5e-3)
+
+
+def test_the_closed_end_is_for_tip_vortices_in_axial_flow():
+    with pytest.raises(wf.InputError, match="far_wake"):
+        wf.tunnel("uh60a", speed="60 kt", inflow=wf.RelaxationWake(far_wake="cylinder"))
+    for given in ({"trailers": "full-span"}, {"inboard_wake": "sheet"}, {"far_wake_turns": 2}, {"turns": 1}):
+        with pytest.raises(wf.InputError, match="far_wake"):
+            wf.tunnel("uh60a", inflow=wf.RelaxationWake(far_wake="cylinder", **given))
+
+
+def test_second_order_lifting_line_is_weissinger_where_tables_are_thin(two_blades):
+    # section tables of slope 2 pi without compressibility against flow tangency: sin alpha apart
+    table = hover(two_blades, "second-order", turns=3).data
+    tangency = wf.tunnel(
+        two_blades,
+        collective="8 deg",
+        inflow=wf.RelaxationWake(azimuth_step="15 deg", relaxation=0.3, n_stations=12, turns=3),
+        blade_model="weissinger",
+        prandtl_glauert=False,
+    ).data
+    assert table.circulation.values == pytest.approx(tangency.circulation.values, rel=5e-3, abs=1e-3)
+    assert float(table.ct) == pytest.approx(float(tangency.ct), rel=5e-3)
+
+
+@pytest.fixture(scope="module")
+def two_blades(tmp_path_factory):
+    path = tmp_path_factory.mktemp("rotor") / "rotor.toml"
+    path.write_text(
+        """
+format = 1
+name = "Two blades"
+[rotor]
+n_blades = 2
+radius = "1.143 m"
+omega = "1250 rpm"
+[rotor.blade]
+root = "clamped"
+flexible = false
+root_station = "0 m"
+root_cutout = "0.1905 m"
+geometry = { columns = { r_R = [0.0, 1.0], chord_m = [0.1905, 0.1905], twist_deg = [0.0, 0.0] } }
+[rotor.airfoil]
+name = "thin"
+polar = { lift_curve_slope = "6.283185307179586 1/rad", cd = [0.01, 0.0, 0.0], prandtl_glauert = false }
+"""
+    )
+    return path
