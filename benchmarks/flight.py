@@ -18,17 +18,19 @@ def start(inflow: str, blades: str = "flexible") -> "wf.Trim":
 
 
 def dynamics(quick: bool) -> str:
-    """One residual and one Jacobian of F(y_dot, y, u, t), beside the Jacobian by differences of the residual."""
-    trimmed = start("dynamic")
+    """Residual, Jacobian and mass matrix of F(y_dot, y, u, t), beside the Jacobian by differences of the residual."""
+    rows = [row for blades in ("flexible", "rigid") for row in derivatives(blades, 50 if quick else 300)]
+    return table(["blades", "what", "microseconds", "in residuals"], rows)
+
+
+def derivatives(blades: str, repetitions: int) -> list[list[str]]:
+    """Rows of `dynamics` for one kind of blades."""
+    trimmed = start("dynamic", blades)
     model = flying.flight_model(trimmed, None)
-    sticks = flying.Sticks(wf.roll_reversal(), trimmed.stick_si)
-    source, _ = flying.inflow_source(model, trimmed, flying.Silent())
-    held, mean = source.held(0)
-    inputs = flying.coupling_inputs(sticks, 0.0, held, mean, trimmed.stabilator_incidence)
-    y = trimmed.state(0.0)
+    inputs, y = trimmed.inputs(), trimmed.state(0.0)
     y_dot = consistent_rate(model, 0.0, y, inputs)
     n = y.size
-    out, matrix = np.empty(n), np.empty((n, n))
+    out, matrix, room = np.empty(n), np.empty((n, n)), model.linearised()
 
     def by_differences() -> None:
         for i in range(n):
@@ -36,18 +38,15 @@ def dynamics(quick: bool) -> str:
             shifted[i] += 1e-7 * max(1.0, abs(y[i]))
             model.core.residual(0.0, shifted, y_dot, inputs, out)
 
-    repetitions = 50 if quick else 300
-    residual, _ = seconds(lambda: model.core.residual(0.0, y, y_dot, inputs, out), repetitions)
-    jacobian, _ = seconds(lambda: model.core.jacobian(0.0, y, y_dot, inputs, 1.0, 100.0, matrix), repetitions)
-    differences, _ = seconds(by_differences, max(3, repetitions // 20))
-    return table(
-        ["what", "microseconds", "in residuals"],
-        [
-            [f"residual of {n} states", f"{residual * 1e6:.0f}", "1"],
-            ["exact Jacobian", f"{jacobian * 1e6:.0f}", f"{jacobian / residual:.1f}"],
-            ["the same by one-sided differences", f"{differences * 1e6:.0f}", f"{differences / residual:.1f}"],
-        ],
-    )
+    timed = {
+        f"residual of {n} states": lambda: model.core.residual(0.0, y, y_dot, inputs, out),
+        "exact Jacobian": lambda: model.core.jacobian(0.0, y, y_dot, inputs, 1.0, 100.0, matrix),
+        "dF/dy_dot alone": lambda: room.renew_mass(model.core, 0.0, y, inputs),
+    }
+    medians = {name: seconds(call, repetitions)[0] for name, call in timed.items()}
+    medians["the Jacobian by one-sided differences"] = seconds(by_differences, max(3, repetitions // 20))[0]
+    residual = next(iter(medians.values()))
+    return [[blades, name, f"{value * 1e6:.1f}", f"{value / residual:.1f}"] for name, value in medians.items()]
 
 
 def maneuvers(quick: bool, ns_per_evaluation: float) -> str:

@@ -117,7 +117,12 @@ class Model(CompiledRotor):
 
     def modal(self, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Modal coordinates and rates of all blades, (n_blades, n_modes) each."""
-        q, q_dot = (np.array([y[a:b] for a, b in self.layout[part]]) for part in ("modal", "modal_rate"))
+        q, q_dot = self._modal_places
+        return y[q], y[q_dot]
+
+    @cached_property
+    def _modal_places(self) -> tuple[np.ndarray, np.ndarray]:
+        q, q_dot = (np.array([range(a, b) for a, b in self.layout[part]], int) for part in ("modal", "modal_rate"))
         return q, q_dot
 
     def pitch_controls(self, stick: np.ndarray) -> np.ndarray:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -104,7 +105,7 @@ class Recorder:
                 self.sheets.append(wake.lattice(step))
             self.snapshot_revolution.append(step / self.model.steps_per_revolution)
         # a row counts only when it is finite: what cannot be kept ends the flight
-        if not np.all(np.isfinite(self.state[step])) or not np.all(np.isfinite(self.loads["force"][step])):
+        if not np.isfinite(y).all() or not all(map(math.isfinite, out["force"])):
             raise ArithmeticError(f"loads are not finite at t = {t:.4f} s")
         self.n_recorded = step + 1
 

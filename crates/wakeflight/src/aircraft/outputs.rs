@@ -1,7 +1,6 @@
 //! What a run records at an instant: loads, flapping, and the air at every station.
 
 use super::model::{Aircraft, Inputs};
-use super::residual::RotorLoads;
 use super::state::{Layout, body_vector};
 use crate::numerics::frames::{Vec3, rot_ib};
 
@@ -49,8 +48,7 @@ impl Aircraft {
     pub fn outputs(&self, t: f64, y: &[f64], y_dot: &[f64], inputs: &Inputs) -> Outputs {
         let hub = self.hub_motion(y, y_dot);
         let n_blades = self.rotor.n_blades;
-        let blades: Vec<_> = (0..n_blades).map(|b| self.blade_loads(t, y, y_dot, inputs, &hub, b)).collect();
-        let rotor = RotorLoads::sum(&blades);
+        let rotor = self.rotor_loads(t, y, y_dot, inputs, &hub, |_, _| ());
         let [beta_1c, beta_1s] = self.flap_multiblade(t, y);
         let loads = self.airframe_loads(t, y, inputs, &rotor, beta_1c);
         let (velocity, rates) = (body_vector(y, Layout::VELOCITY), body_vector(y, Layout::RATES));

@@ -82,6 +82,27 @@ impl Aircraft {
     pub fn residual_of_four(&self, t: f64, y: &[f64], y_dot: &[f64], inputs: &Inputs, f: &mut [f64]) {
         let l = &self.layout;
         let hub = self.hub_motion(y, y_dot);
+        let rotor = self.rotor_loads(t, y, y_dot, inputs, &hub, |b, blade| {
+            let (q, s) = (l.modal(b).start, l.modal_rate(b).start);
+            for i in 0..l.n_modes {
+                f[q + i] = y_dot[q + i] - y[s + i];
+                f[s + i] = blade.modal[i];
+            }
+        });
+        let beta_1c = self.flap_multiblade(t, y)[0];
+        self.body_rows(t, y, y_dot, inputs, &rotor, beta_1c, f);
+    }
+
+    /// Loads of all blades, four at once; `each` sees every blade's.
+    pub fn rotor_loads(
+        &self,
+        t: f64,
+        y: &[f64],
+        y_dot: &[f64],
+        inputs: &Inputs,
+        hub: &HubMotion<f64>,
+        mut each: impl FnMut(usize, &BladeLoads<f64>),
+    ) -> RotorLoads<f64> {
         let mut rotor = RotorLoads::sum(&[]);
         let n = self.rotor.n_blades;
         for first in (0..n).step_by(4) {
@@ -92,18 +113,13 @@ impl Aircraft {
                 (psi, self.modal_motion(y, y_dot, blade(k)), self.blade_pitch::<f64>(inputs, t, psi))
             });
             let inflow = std::array::from_fn(|k| self.blade_inflow(y, inputs, blade(k)));
-            let loads = self.rotor.four_blade_loads(self.air, &hub, &poses, &inflow);
+            let loads = self.rotor.four_blade_loads(self.air, hub, &poses, &inflow);
             for (b, blade) in (first..n).zip(&loads) {
-                let (q, s) = (l.modal(b).start, l.modal_rate(b).start);
-                for i in 0..l.n_modes {
-                    f[q + i] = y_dot[q + i] - y[s + i];
-                    f[s + i] = blade.modal[i];
-                }
+                each(b, blade);
                 rotor.add(blade);
             }
         }
-        let beta_1c = self.flap_multiblade(t, y)[0];
-        self.body_rows(t, y, y_dot, inputs, &rotor, beta_1c, f);
+        rotor
     }
 
     /// Gravity in body axes [m/s2].
