@@ -53,18 +53,18 @@ def lattice(n_trailers: int, steps: int, turns: int, summation: str) -> tuple[_c
 
 
 def one_step(wake: _core.TimeMarchingWake, steps: int) -> float:
-    """Seconds of a step of a marching wake: two fields, predictor, corrector."""
+    """Processor seconds of a step of a marching wake: two fields, predictor, corrector."""
     n_stations = wake.inflow_far().shape[1]
     circulation = np.tile(20.0 * np.sin(np.linspace(0.1, 3.0, n_stations)), (4, 1))
     psi = 2 * np.pi * (np.arange(4) / 4 + 1 / steps)
     blades = np.column_stack([psi, np.zeros(4), np.zeros(4)])
-    begun = time.perf_counter()
+    begun = time.process_time()
     wake.step(*HUB, blades, circulation)
-    return time.perf_counter() - begun
+    return time.process_time() - begun
 
 
 def steps(quick: bool) -> str:
-    """A step of the wake on one thread, directly and by the tree; error of the tree's field at markers."""
+    """Processor time of a step of the wake on one thread, directly and by the tree; error of the tree's field at markers."""
     _core.set_threads(1)
     rows = []
     for n_trailers, per_turn, turns in SIZES[:5] if quick else SIZES:
@@ -72,9 +72,9 @@ def steps(quick: bool) -> str:
         whole = markers * segments < AFFORDABLE
         every = 1 if whole else max(1, round(markers * segments / 5e8))
         points = direct.lattice().reshape(-1, 3)[::every]
-        begun = time.perf_counter()
+        begun = time.process_time()
         reference = direct.wake_velocity(points)
-        by_direct = 2.0 * (time.perf_counter() - begun) * markers / points.shape[0]
+        by_direct = 2.0 * (time.process_time() - begun) * markers / points.shape[0]
         repetitions = 3 if segments < 30_000 else 1
         if whole:
             by_direct = min(one_step(direct.copy(), per_turn) for _ in range(repetitions))

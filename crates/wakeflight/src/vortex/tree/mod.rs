@@ -76,12 +76,11 @@ const LEAST: usize = 512;
 /// Points at which the direct sum tells how large velocities are.
 const SAMPLES: usize = 64;
 /// Estimated error of one cell over the error allowed of all: the estimate is a bound of one sign, what is left of many
-/// cells cancels, less so along vortex sheets. With 0.5 the largest error measured was half of what is allowed, in the
-/// lattice of a full-span wake; with 2 it was a fifth of it for separate filaments, but twice what is allowed in a lattice.
+/// cells cancels, less so along vortex sheets.
 const SHARE: f64 = 0.5;
 
 /// Whether the tree is faster at its default tolerance, from 4096 points and segments on: measured on one core for wakes of
-/// helical filaments and for full-span lattices (two segments for each point), where 3000 are as fast either way.
+/// helical filaments and for full-span lattices (two segments for each point), where 3200 are as fast either way.
 #[must_use]
 pub fn tree_is_faster(n_points: usize, n_segments: usize) -> bool {
     let both = (n_points as f64) * (n_segments as f64);
@@ -91,7 +90,7 @@ pub fn tree_is_faster(n_points: usize, n_segments: usize) -> bool {
 /// Adds to `velocity` the velocity that `filaments` induce at `points` [m/s], by the method of choice.
 ///
 /// The error of the tree is below `tolerance` times the largest induced velocity at the points: not a theorem, but what
-/// holds in every test, at the default with a margin of two and more; [`Account::truncation_bound`] is a theorem.
+/// holds in every test, up to a million segments in the lattice of a wake; [`Account::truncation_bound`] is a theorem.
 pub fn add_filaments_velocity_by(
     method: Method,
     points: &[[f64; 3]],

@@ -19,6 +19,8 @@ const BLOCK: usize = 32;
 
 /// Weight of errors that have one sign over those that cancel.
 const ONE_SIGN: f64 = 4.0;
+/// The same for the many cells of vortex sheets.
+const SHEETS: f64 = 16.0;
 
 /// When a cell may be taken by its expansion.
 #[derive(Clone, Copy, Debug)]
@@ -57,10 +59,11 @@ impl Acceptance {
         let ratio_sq = ratio * ratio;
         match (self.core, self.core_distance) {
             (Core::Singular, _) => 0.0,
-            // slow decay: of one sign for all segments, what many cells leave out does not cancel; nor does it along the
-            // lines of the parallel segments of a vortex sheet
-            (Core::RosenheadMoore | Core::Scully, _) | (_, CoreDistance::Line) => ONE_SIGN * 1.5 * ratio_sq,
-            (Core::Vatistas2, _) => 0.5 * ratio_sq * ratio_sq,
+            // slow decay: of one sign for all segments, what many cells leave out does not cancel
+            (Core::RosenheadMoore | Core::Scully, _) => ONE_SIGN * 1.5 * ratio_sq,
+            // in the sheets of a wake with cores wider than their spacing it does not cancel either, and cells are many
+            (_, CoreDistance::Line) => SHEETS * 1.5 * ratio_sq,
+            (Core::Vatistas2, _) => SHEETS * 0.5 * ratio_sq * ratio_sq,
             (Core::Rankine, _) => f64::from(u8::from(ratio > 1.0)),
             (Core::LambOseen, _) => (-LAMB_OSEEN_ALPHA / ratio_sq).exp(),
         }
