@@ -4,6 +4,8 @@ The default of a kind is what `wf.tunnel` takes by itself for the name of an inf
 shown beside it, never instead of it.
 """
 
+from functools import cache
+
 import wakeflight as wf
 from wakeflight.tunnel import configured
 
@@ -29,6 +31,25 @@ def hover(rotor, wake=DEFAULT, **arguments):
     blade_model = options.pop("blade_model", "lifting-line")
     model = configured(rotor, "relaxation", options, HOVER)
     return wf.tunnel(rotor, inflow=model, blade_model=blade_model, **arguments)
+
+
+FULL_SPAN = "full-span wake, means in time, second-order lifting line"
+"""The internal truth in hover: every trailer free. Ten turns, 10 trailers at 15 deg; too slow for more than a few cases."""
+
+
+@cache
+def full_span_hover(rotor, collective, rpm):
+    """Rotor in hover with a marching full-span wake: means of revolutions 7 to 18."""
+    wake = wf.TimeMarchingWake(trailers="full-span", n_trailers=10, azimuth_step="15 deg", turns=10)
+    return wf.tunnel(
+        rotor,
+        collective=collective,
+        rpm=rpm,
+        inflow=wake,
+        blade_model="second-order",
+        revolutions=18,
+        averaged=12,
+    )
 
 
 BASELINE = "baseline: blade elements and annular momentum, Prandtl's tip loss"

@@ -2,7 +2,7 @@
 
 from functools import partial
 
-from settings import BASELINE, HOVER_WAKES, baseline, hover
+from settings import BASELINE, FULL_SPAN, HOVER_WAKES, baseline, full_span_hover, hover
 
 from wakeflight.plotting import style
 from wakeflight.validate import Check, Outcome
@@ -12,9 +12,12 @@ def run(case):
     table = case.table("thrust.csv")
     rotor = case.path("rotors/caradonna-tung.toml")
     checks, found = [], {}
-    for name in [*HOVER_WAKES, BASELINE]:
-        solved = partial(baseline, rotor) if name == BASELINE else partial(hover, rotor, name)
-        ours = [solved(collective=f"{theta} deg", rpm=rpm).ct for theta, rpm in zip(table["theta_deg"], table["rpm"])]
+    for name in [*HOVER_WAKES, FULL_SPAN, BASELINE]:
+        solved = {BASELINE: partial(baseline, rotor), FULL_SPAN: partial(full_span_hover, rotor)}.get(
+            name, partial(hover, rotor, name)
+        )
+        runs = zip(table["theta_deg"], table["rpm"])
+        ours = [solved(collective=f"{theta:g} deg", rpm=float(rpm)).ct for theta, rpm in runs]
         found[name] = ours
         default = name.startswith("default")
         for theta, mach, ct, measured in zip(table["theta_deg"], table["Mtip"], ours, table["CT"]):
@@ -25,7 +28,7 @@ def run(case):
 
 @style.styled
 def draw(table, found):
-    figure = style.blank(4.0)
+    figure = style.blank(4.6)
     axes = figure.subplots()
     axes.plot(table["Mtip"], table["CT"], "ko", label="measured")
     for (name, ours), color in zip(found.items(), style.COLORS):
@@ -45,5 +48,5 @@ def draw(table, found):
     axes.set_ylim(0, None)
     axes.set_xlabel("tip Mach number")
     axes.set_ylabel("thrust coefficient C_T")
-    figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=2)
+    figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center")
     return figure

@@ -1,7 +1,7 @@
 """Tip-vortex path of the rotor of Caradonna and Tung."""
 
 import numpy as np
-from settings import HOVER_WAKES, hover
+from settings import FULL_SPAN, HOVER_WAKES, full_span_hover, hover
 
 from wakeflight.plotting import style
 from wakeflight.validate import Check, Outcome
@@ -15,8 +15,11 @@ def run(case):
     radius, descent = table["r_over_R"][points], table["minus_z_over_R"][points]
     first, second = table["minus_z_over_R"][~points]
     checks, found = [], {}
-    for name in HOVER_WAKES:
-        stand = hover(rotor, name, collective="8 deg", rpm=1250)
+    for name in [*HOVER_WAKES, FULL_SPAN]:
+        if name == FULL_SPAN:
+            stand = full_span_hover(rotor, collective="8 deg", rpm=1250.0)
+        else:
+            stand = hover(rotor, name, collective="8 deg", rpm=1250)
         at = np.degrees(stand.data.age.values)
         r = stand.data.tip_vortex_radius.values
         below = -(stand.data.tip_vortex_height.values - stand.data.tip_vortex_height.values[0])
