@@ -87,14 +87,21 @@ def harmonics(field: xr.DataArray) -> tuple[float, float, float]:
     return float(mean), float(f_1c), float(f_1s)
 
 
-def draw(axes: Axes, field: xr.DataArray, limits: tuple[float, float], cmap: str, n_levels: int = 26) -> QuadContourSet:
-    """One map (azimuth, station) as filled contours on the disk, nose to the left."""
+def draw(
+    axes: Axes,
+    field: xr.DataArray,
+    limits: tuple[float, float],
+    cmap: str,
+    n_levels: int = 26,
+    extend: str = "neither",
+) -> QuadContourSet:
+    """One map (azimuth, station) as filled contours on the disk, nose to the left; `extend`: values beyond are filled too."""
     psi, station = field[field.dims[0]].values, field[field.dims[1]].values
     fine = np.linspace(0, TURN, REFINE * psi.size + 1)
     values = _periodic(fine, psi, field.values)
     x, y = station * np.cos(fine)[:, None], station * np.sin(fine)[:, None]
     # an even number of levels: no change is the white of the middle band, not the edge of two colours
-    filled = axes.contourf(x, y, values, np.linspace(*limits, n_levels), cmap=cmap)
+    filled = axes.contourf(x, y, values, np.linspace(*limits, n_levels), cmap=cmap, extend=extend)
     around = np.linspace(0, TURN, 181)
     axes.plot(np.cos(around), np.sin(around), color=style.GREY, linewidth=0.7)
     axes.plot(station[0] * np.cos(around), station[0] * np.sin(around), color=style.GREY, linewidth=0.4)

@@ -30,8 +30,10 @@ def maps(data: xr.Dataset) -> Figure:
     for axes, (name, label, cmap, symmetric) in zip(figure.subplots(2, 2).flat, MAPS, strict=True):
         field = np.degrees(data[name]) if name == "alpha" else data[name]
         # a map of one value by azimuth still needs a range
-        limits = style.levels(field.values, symmetric=symmetric)
-        filled = disk.draw(axes, field, limits, cmap)
+        # about the reversed flow the angle of attack takes every value: off the scale, or the map shows nothing else
+        ends = np.quantile(field, (0.01, 0.99)) if name == "alpha" else field.values
+        limits = style.levels(ends, symmetric=symmetric)
+        filled = disk.draw(axes, field, limits, cmap, extend="both" if name == "alpha" else "neither")
         disk.mark_directions(axes)
         disk.tidy(figure.colorbar(filled, ax=axes, shrink=0.8), label, limits)
     figure.suptitle(_title(data))
@@ -122,7 +124,8 @@ def transient(data: xr.Dataset) -> Figure:
     for r, color in zip((0.5, 0.75, 0.95), style.COLORS, strict=False):
         last.plot(turns, strength.interp(station=r), color=color, label=f"r/R = {min(max(r, at[0]), at[-1]):g}")
     last.set_ylabel("mean circulation [m²/s]")
-    last.legend()
+    last.set_ylim(top=last.get_ylim()[1] + 0.15 * np.ptp(last.get_ylim()))
+    last.legend(ncols=3, loc="upper left")
     for axes in panels[-1]:
         axes.set_xlabel("revolutions")
     a = data.attrs
