@@ -244,8 +244,9 @@ impl<F: FnMut(&[f64], &mut [f64], &mut [f64])> Problem<'_, F> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::wake::motion::{BladeState, HubMotion};
     use crate::wake::near_wake::near_wake_matrix;
-    use crate::wake::options::{BladeState, HubMotion, WakeOptions};
+    use crate::wake::options::WakeOptions;
 
     fn rotor() -> (WakeOptions, Vec<f64>) {
         let options = WakeOptions::new(4, 8.0, 1.5, 0.4, 0.5, 27.0);

@@ -4,8 +4,9 @@
 //! cylinder of vorticity. Axis, radius, pitch and circulation are means of the last turn over the blades. The part of the
 //! vorticity along the axis is left out: it turns the air outside the wake, but carries none.
 
+use super::choices::FarWake;
 use super::filament::Filaments;
-use super::options::{FarWake, WakeOptions};
+use super::options::WakeOptions;
 use crate::vortex::cylinder::VortexCylinder;
 use std::f64::consts::TAU;
 

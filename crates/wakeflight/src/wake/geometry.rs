@@ -1,6 +1,8 @@
 //! Equivalent rigid blade line: bound elements, stations and release of the tip vortex.
 
-use super::options::{BladeState, Trailers, WakeOptions};
+use super::choices::Trailers;
+use super::motion::BladeState;
+use super::options::WakeOptions;
 use std::f64::consts::PI;
 
 /// Radial grid of the bound vortex.

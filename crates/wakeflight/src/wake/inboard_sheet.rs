@@ -1,7 +1,8 @@
 //! Inboard wake: rigid helical filaments that close the circulation inboard of its crest.
 
 use super::geometry::{BladeGrid, BladeLine};
-use super::options::{BladeState, HubMotion, WakeOptions};
+use super::motion::{BladeState, HubMotion};
+use super::options::WakeOptions;
 
 /// Outer end of the spans that the sheet gathers (fraction of R).
 pub const OUTER_END: f64 = 0.8;

@@ -1,6 +1,7 @@
 //! First guess of the geometry of the tip vortices.
 
-use super::options::{HubMotion, WakeOptions};
+use super::motion::HubMotion;
+use super::options::WakeOptions;
 
 /// Advance ratio below which the guess contracts as in hover.
 const HOVER_ADVANCE_RATIO: f64 = 0.03;

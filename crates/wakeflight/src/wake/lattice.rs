@@ -6,8 +6,9 @@
 //! the rings leave trailing segments of the mean strength of their ends and shed segments g_k - g_(k-1), root to tip
 //! positive; at the blade g_0 - G_0. No vorticity ends anywhere but at the old end, where the wake that is left out goes on.
 
+use super::choices::{ShedWake, Trailers};
 use super::filament::Filaments;
-use super::options::{ShedWake, Trailers, WakeOptions};
+use super::options::WakeOptions;
 use super::sources::Sink;
 use super::velocity_field::sum;
 

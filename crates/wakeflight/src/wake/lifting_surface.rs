@@ -4,11 +4,13 @@
 //! three quarters of the chord, where the bound line's own induction enters; that of an infinite line, 1/(pi c), is what
 //! a thin section already carries in its 2 pi slope and is taken away.
 
+use super::choices::CoreDistance;
 use super::circulation::solve_circulation;
 use super::error::WakeError;
 use super::geometry::BladeGrid;
+use super::motion::{BladeState, HubMotion};
 use super::near_wake::trailers;
-use super::options::{BladeState, CoreDistance, HubMotion, WakeOptions};
+use super::options::WakeOptions;
 use crate::vortex::core::Core;
 use crate::vortex::sources::{Group, Sources, add_groups_velocity};
 use std::f64::consts::PI;

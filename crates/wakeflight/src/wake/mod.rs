@@ -2,6 +2,7 @@
 //!
 //! Everything that crosses the border is SI, in the hub frame `_h` (x aft, y right, z up, non-rotating, origin at the hub).
 
+pub mod choices;
 pub mod circulation;
 pub mod error;
 mod far_cylinder;
@@ -12,6 +13,7 @@ pub mod initial;
 pub mod lattice;
 pub mod lifting_surface;
 pub mod miss_distance;
+pub mod motion;
 pub mod near_wake;
 pub mod options;
 pub mod relaxation;
@@ -22,14 +24,16 @@ pub mod tip_strength;
 pub mod trailers;
 pub mod velocity_field;
 
+pub use choices::{
+    CoreDistance, Evaluation, FarWake, Form, InboardWake, Predictor, Scheme, ShedWake, Summation,
+    TipStrength, Trailers,
+};
 pub use circulation::{CirculationSolution, solve_circulation};
 pub use error::WakeError;
 pub use lifting_surface::weissinger_matrix;
+pub use motion::{BladeState, HubMotion};
 pub use near_wake::near_wake_matrix;
-pub use options::{
-    BladeState, CoreDistance, Evaluation, FarWake, Form, HubMotion, InboardWake, Predictor, Scheme, ShedWake,
-    Summation, TipStrength, Trailers, WakeOptions,
-};
+pub use options::WakeOptions;
 pub use relaxation::{Norms, RelaxationWake, tip_rows};
 pub use time_marching::{StepReport, TimeMarchingWake};
 pub use velocity_field::{InducedVelocity, Induction, LinearField, Prescribed, VortexSegments};

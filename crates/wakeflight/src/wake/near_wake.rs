@@ -3,7 +3,8 @@
 use super::error::WakeError;
 use super::geometry::{BladeGrid, BladeLine};
 use super::lifting_surface::influence;
-use super::options::{BladeState, HubMotion, WakeOptions};
+use super::motion::{BladeState, HubMotion};
+use super::options::WakeOptions;
 use super::velocity_field::sum;
 
 /// Matrix N (n_stations, n_stations), row-major [s/m2]: inflow at the stations that the near wake of the own blade adds,

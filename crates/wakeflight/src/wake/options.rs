@@ -1,137 +1,13 @@
-//! Rotor, grid and vortex model of a free wake; motion of the hub and of a blade.
+//! Rotor, grid and vortex model of a free wake.
 
-use super::error::{WakeError, finite};
-use crate::vortex::core;
+use super::choices::{
+    CoreDistance, Evaluation, FarWake, Form, InboardWake, Predictor, Scheme, ShedWake, Summation,
+    TipStrength, Trailers,
+};
+use super::error::WakeError;
 use crate::vortex::tree::Method;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, TAU};
-
-/// Corrector of the time-marching wake.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Scheme {
-    /// Second-order backward in azimuth at the new level, centred in age.
-    Bdf2,
-    /// Second-order backward in azimuth at the centre of the cell.
-    Pc2b,
-    /// Five-point central in azimuth and age.
-    Pcc,
-}
-
-/// Predictor of the time-marching wake.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Predictor {
-    /// Stencil of the corrector.
-    Same,
-    /// Five-point central.
-    Central,
-}
-
-/// Fields that a step of the time-marching wake evaluates.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Evaluation {
-    /// Predict, evaluate, correct, evaluate: a step begins with the field of the corrected wake.
-    Pece,
-    /// Predict, evaluate, correct: a step begins with the field of the wake that the last step predicted.
-    Pec,
-}
-
-/// How the vortices are summed at the markers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Summation {
-    /// By the tree where it was measured to be faster.
-    Auto,
-    /// Every segment at every point.
-    Direct,
-    /// By the tree.
-    Tree,
-}
-
-/// Unknown that the stencils of the time-marching wake act on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Form {
-    /// Displacement of a marker from the place of its release.
-    Displacement,
-    /// Position.
-    Position,
-}
-
-/// Circulation of the tip vortex from that of the blade.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum TipStrength {
-    /// Uniform circulation of equal thrust.
-    Equivalent,
-    /// Crest of the outboard circulation.
-    Max,
-    /// Mean of the outboard circulation.
-    Mean,
-}
-
-/// What trails inboard of the tip vortex, beyond the near wake.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum InboardWake {
-    /// Nothing.
-    None,
-    /// Rigid helical filaments.
-    Sheet,
-}
-
-/// Free filaments that leave a blade.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Trailers {
-    /// One, the tip vortex.
-    Tip,
-    /// One at every edge between panels, from root to tip, joined by shed vortices: a lattice of vortex rings.
-    FullSpan,
-}
-
-/// Shed vortices of a full-span wake that blades and markers see.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum ShedWake {
-    /// None: trailing vortices only.
-    None,
-    /// All, but a blade sees what it shed over its near wake gathered at the near wake's end.
-    Beyond,
-    /// All, at the places where they are.
-    All,
-}
-
-/// What goes on behind the old ends of the free filaments.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum FarWake {
-    /// `far_wake_turns` repeats of the last turn; nothing where that is 0.
-    Repeat,
-    /// A semi-infinite vortex cylinder; tip vortices alone, in hover and climb.
-    Cylinder,
-}
-
-/// Distance that enters the core factor of a segment.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum CoreDistance {
-    /// To the infinite line through the segment.
-    Line,
-    /// To the segment itself.
-    Segment,
-}
-
-impl From<CoreDistance> for core::CoreDistance {
-    fn from(distance: CoreDistance) -> Self {
-        match distance {
-            CoreDistance::Line => Self::Line,
-            CoreDistance::Segment => Self::Segment,
-        }
-    }
-}
 
 /// Options of a free wake. Rotor data have no default; numerical parameters have.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
@@ -604,65 +480,6 @@ impl WakeOptions {
     }
 }
 
-/// Motion of the hub, components along `_h`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize, Serialize)]
-pub struct HubMotion {
-    /// Velocity of the hub through the air [m/s].
-    pub velocity: [f64; 3],
-    /// Angular velocity of the airframe [rad/s].
-    pub rates: [f64; 3],
-}
-
-impl HubMotion {
-    /// Motion as the free filaments feel it: without rates where the options leave them out.
-    pub(crate) fn felt(self, options: &WakeOptions) -> Self {
-        if options.rates { self } else { HubMotion { rates: [0.0; 3], ..self } }
-    }
-
-    /// Velocity of the air relative to the hub axes at `point` without induction: -velocity - rates x point [m/s].
-    pub fn wind(&self, point: [f64; 3]) -> [f64; 3] {
-        let (v, w, r) = (self.velocity, self.rates, point);
-        [
-            -v[0] - (w[1] * r[2] - w[2] * r[1]),
-            -v[1] - (w[2] * r[0] - w[0] * r[2]),
-            -v[2] - (w[0] * r[1] - w[1] * r[0]),
-        ]
-    }
-
-    /// Refuses components that are not finite, and a wind across a far wake that is a cylinder.
-    pub(crate) fn validate(&self, options: &WakeOptions) -> Result<(), WakeError> {
-        finite("hub velocity", &self.velocity)?;
-        finite("hub rates", &self.rates)?;
-        let across = self.velocity[0].hypot(self.velocity[1]) / options.tip_speed();
-        if options.far_wake == FarWake::Cylinder && (across > 0.01 || self.velocity[2] < 0.0) {
-            return Err(WakeError::InvalidOption {
-                field: "far_wake",
-                value: "cylinder".into(),
-                allowed: "in hover and climb only, repeat elsewhere".into(),
-            });
-        }
-        Ok(())
-    }
-}
-
-/// Azimuth of a blade and its equivalent rigid angles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize, Serialize)]
-pub struct BladeState {
-    /// Azimuth [rad], zero aft, positive in the direction of rotation (toward +y).
-    pub psi: f64,
-    /// Flap [rad], up positive.
-    pub flap: f64,
-    /// Lead [rad], forward positive.
-    pub lead: f64,
-}
-
-impl BladeState {
-    /// Refuses angles that are not finite.
-    pub(crate) fn validate(&self) -> Result<(), WakeError> {
-        finite("blade psi, flap, lead", &[self.psi, self.flap, self.lead])
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -701,14 +518,5 @@ mod tests {
         assert!(refused(&|o| (full_span(o), o.n_trailers = 22).0).contains("n_stations + 1 = 21"));
         assert!(refused(&|o| (full_span(o), o.release_radius = 0.98).0).contains("release_radius = 0.98"));
         assert!(refused(&|o| o.relaxation = 0.0).contains("relaxation = 0"));
-    }
-
-    #[test]
-    fn a_nose_up_rate_blows_from_below_behind_the_hub() {
-        // q > 0 is a rotation about +y (right): relative wind up at x > 0 (aft); roll right, p > 0, is about -x
-        let pitch = HubMotion { velocity: [0.0; 3], rates: [0.0, 0.1, 0.0] };
-        assert!(pitch.wind([5.0, 0.0, 0.0])[2] > 0.0);
-        let roll = HubMotion { velocity: [0.0; 3], rates: [-0.1, 0.0, 0.0] };
-        assert!(roll.wind([0.0, 5.0, 0.0])[2] > 0.0);
     }
 }

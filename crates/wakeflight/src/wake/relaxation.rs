@@ -5,7 +5,8 @@ use super::filament::{aged_core_squared, distance, stretched_core_squared};
 use super::geometry::{BladeGrid, release_points};
 use super::inboard_sheet;
 use super::initial;
-use super::options::{BladeState, HubMotion, WakeOptions};
+use super::motion::{BladeState, HubMotion};
+use super::options::WakeOptions;
 use super::stencils;
 use super::trailers;
 use super::velocity_field::{

@@ -1,7 +1,8 @@
 //! The vortices of a rotor and its wake packed for the sum, and what each blade sees of them.
 
+use super::choices::Trailers;
 use super::lattice::{Viewer, bound, push_filament, push_shed};
-use super::options::{Trailers, WakeOptions};
+use super::options::WakeOptions;
 use super::velocity_field::RotorInstant;
 use crate::vortex::induced_velocity::Segments;
 use crate::vortex::sources::{Mark, Part, Sources};

@@ -4,7 +4,7 @@
 //! H (n-2, k). The stencils are linear: they act on positions, or on displacements from the release point, which is
 //! constant along a characteristic.
 
-use super::options::Scheme;
+use super::choices::Scheme;
 
 /// Known corners of a cell [m].
 #[derive(Clone, Copy, Debug)]

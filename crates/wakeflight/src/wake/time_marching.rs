@@ -1,10 +1,12 @@
 //! Time-accurate wake: the free filaments advance with the blades, step by step [bhagwat2001].
 
+use super::choices::{Evaluation, Form, Predictor, Scheme};
 use super::error::{WakeError, finite, length};
 use super::filament::{aged_core_squared, distance, stretched_core_squared};
 use super::geometry::{BladeGrid, release_points};
 use super::inboard_sheet;
-use super::options::{BladeState, Evaluation, Form, HubMotion, Predictor, Scheme, WakeOptions};
+use super::motion::{BladeState, HubMotion};
+use super::options::WakeOptions;
 use super::relaxation::{RelaxationWake, tip_rows};
 use super::stencils::{Cell, unknown_corner};
 use super::trailers;

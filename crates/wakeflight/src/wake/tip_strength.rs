@@ -1,7 +1,8 @@
 //! Circulation of the tip vortex from the circulation along the blade.
 
+use super::choices::TipStrength;
 use super::geometry::BladeGrid;
-use super::options::{TipStrength, WakeOptions};
+use super::options::WakeOptions;
 
 /// Inner end of the range whose mean circulation gives the sign of the crest (fraction of R).
 const SIGN_RANGE: f64 = 0.7;

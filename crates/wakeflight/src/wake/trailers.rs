@@ -1,7 +1,8 @@
 //! Circulation that a blade gives to its free trailers.
 
+use super::choices::Trailers;
 use super::geometry::BladeGrid;
-use super::options::{Trailers, WakeOptions};
+use super::options::WakeOptions;
 use super::tip_strength::tip_circulation;
 
 /// Circulation of the panels between the trailers of a full-span wake (n_trailers - 1) [m2/s]: mean over the span of each.

@@ -1,10 +1,12 @@
 //! Velocity of the air relative to the hub axes: every vortex of the rotor at one instant, and the wind.
 
+use super::choices::CoreDistance;
 use super::error::{WakeError, finite};
 use super::far_cylinder::far_cylinder;
 use super::filament::Filaments;
 use super::geometry::{BladeGrid, BladeLine};
-use super::options::{BladeState, CoreDistance, HubMotion, WakeOptions};
+use super::motion::{BladeState, HubMotion};
+use super::options::WakeOptions;
 use super::sources::{KINDS, SEEN, WakeSources, push_kind};
 use crate::vortex::core::Core;
 use crate::vortex::curvature::curvature_velocity;
