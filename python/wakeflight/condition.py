@@ -28,6 +28,18 @@ _RANGES = {
 _MASS = (10.0, 1e5)
 
 
+def described(values: dict[str, Any]) -> str:
+    """A condition as results keep it (SI, radians), with the units it is given in: `speed 80 kt, flight path -6 deg`."""
+    parts = []
+    for name, value in values.items():
+        if name in _RANGES:
+            value = shown(value, _RANGES[name][3])
+        elif name == "gross_mass":
+            value = shown(value, "kg")
+        parts.append(f"{name.replace('_', ' ')} {value}")
+    return ", ".join(parts)
+
+
 @dataclass(frozen=True, init=False)
 class FlightCondition:
     """Flight condition, SI and radians inside; what is not given is None until an aircraft completes it.

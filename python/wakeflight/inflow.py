@@ -85,8 +85,24 @@ def check_azimuth_step(step: float, n_blades: int | None = None, field: str = "a
         raise InputError.of(field, f"{degrees:.6g} deg", allowed)
 
 
+class _Inflow:
+    """What every inflow model has: a step of azimuth, and options that go into the attributes of a result."""
+
+    azimuth_step: Any
+
+    def step(self, aircraft: Aircraft) -> float:
+        """Azimuth step on this aircraft or rotor [rad]; it must divide 360 deg over the number of blades."""
+        step = aircraft.discretisation.azimuth_step if self.azimuth_step is None else self.azimuth_step
+        check_azimuth_step(step, int(aircraft.rotor.n_blades))
+        return step
+
+    def as_attributes(self) -> dict[str, Any]:
+        """Options by name, angles [rad], for the attributes of a result."""
+        return {field.name: getattr(self, field.name) for field in fields(self)}
+
+
 @dataclass(frozen=True)
-class _Wake:
+class _Wake(_Inflow):
     """Options common to both free wakes; lengths over the radius or the chord, angles [rad] once made."""
 
     turns: float = 4.0
@@ -165,12 +181,6 @@ class _Wake:
         """Steps of azimuth in a revolution; None while the step is the aircraft's."""
         return None if self.azimuth_step is None else round(2.0 * math.pi / self.azimuth_step)
 
-    def step(self, aircraft: Aircraft) -> float:
-        """Azimuth step on this aircraft [rad]; it must divide 360 deg over the number of blades."""
-        step = aircraft.discretisation.azimuth_step if self.azimuth_step is None else self.azimuth_step
-        check_azimuth_step(step, int(aircraft.rotor.n_blades))
-        return step
-
     def update_steps(self, aircraft: Aircraft) -> int:
         """Coupling steps between renewals of the inflow held for the flight dynamics."""
         interval = getattr(self, "update_interval", None)
@@ -242,10 +252,6 @@ class _Wake:
             "relaxation": float(getattr(self, "relaxation", 0.5)),
         }
 
-    def as_attributes(self) -> dict[str, Any]:
-        """Options by name, angles [rad], for the attributes of a result."""
-        return {field.name: getattr(self, field.name) for field in fields(self)}
-
 
 @dataclass(frozen=True)
 class RelaxationWake(_Wake):
@@ -310,7 +316,7 @@ class TimeMarchingWake(_Wake):
 
 
 @dataclass(frozen=True)
-class DynamicInflow:
+class DynamicInflow(_Inflow):
     """Three-state dynamic inflow [pitt1981]: mean and first harmonics, always in the state."""
 
     n_stations: int = 20
@@ -324,16 +330,6 @@ class DynamicInflow:
         """Check every option; angles become radians."""
         _check_options(self)
 
-    def step(self, aircraft: Aircraft) -> float:
-        """Azimuth step on this aircraft [rad]; it must divide 360 deg over the number of blades."""
-        step = aircraft.discretisation.azimuth_step if self.azimuth_step is None else self.azimuth_step
-        check_azimuth_step(step, int(aircraft.rotor.n_blades))
-        return step
-
-    def as_attributes(self) -> dict[str, Any]:
-        """Options by name, angles [rad], for the attributes of a result."""
-        return {field.name: getattr(self, field.name) for field in fields(self)}
-
     @property
     def references(self) -> tuple[str, ...]:
         """Keys of references.bib."""
@@ -341,7 +337,7 @@ class DynamicInflow:
 
 
 @dataclass(frozen=True)
-class AnnularInflow:
+class AnnularInflow(_Inflow):
     """Momentum of every ring of the disk for itself [leishman2006]: hover and axial climb, on the stand alone."""
 
     n_stations: int = 20
@@ -356,16 +352,6 @@ class AnnularInflow:
     def __post_init__(self) -> None:
         """Check every option; angles become radians."""
         _check_options(self)
-
-    def step(self, aircraft: Aircraft) -> float:
-        """Azimuth step on this rotor [rad]; it must divide 360 deg over the number of blades."""
-        step = aircraft.discretisation.azimuth_step if self.azimuth_step is None else self.azimuth_step
-        check_azimuth_step(step, int(aircraft.rotor.n_blades))
-        return step
-
-    def as_attributes(self) -> dict[str, Any]:
-        """Options by name, angles [rad], for the attributes of a result."""
-        return {field.name: getattr(self, field.name) for field in fields(self)}
 
     @property
     def references(self) -> tuple[str, ...]:

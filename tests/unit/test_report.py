@@ -6,6 +6,7 @@ import pytest
 import synthetic
 
 from wakeflight import report
+from wakeflight.condition import FlightCondition, described
 from wakeflight.export import vtk
 from wakeflight.results import assemble_trim
 
@@ -82,3 +83,10 @@ def test_wakes_are_exported_as_polylines(tmp_path):
     }
     with pytest.raises(ValueError, match="no wake"):
         vtk.write(synthetic.run("dynamic"), tmp_path)
+
+
+def test_a_flight_condition_is_told_with_its_units():
+    condition = FlightCondition(speed="80 kt", flight_path="-6 deg", altitude="5250 ft", weight="16000 lbf")
+    assert described(condition.as_attributes()) == (
+        "speed 80 kt, flight path -6 deg, altitude 1600.2 m, gross mass 7257.48 kg, turn rate 0 deg/s"
+    )

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..condition import described
 from ..plotting.disk import revolutions_flown
 from ..schema import ATTRIBUTES
 
@@ -98,13 +99,9 @@ def trim_table(trim: xr.Dataset) -> list[Row]:
 
 
 def _text(value: object) -> str:
-    """An attribute as a reader wants it: a condition kept as JSON becomes `name value, name value`."""
+    """An attribute as a reader wants it: a condition, kept as JSON, in words with its units."""
     text = str(value)
-    if text.startswith("{"):
-        return ", ".join(
-            f"{key.replace('_', ' ')} {item}" for key, item in json.loads(text).items() if item is not None
-        )
-    return text
+    return described(json.loads(text)) if text.startswith("{") else text
 
 
 def _indented(value: object, depth: int = 0) -> str:

@@ -443,7 +443,7 @@ impl Aircraft {
     }
 
     /// Acceleration of the hub less gravity and angular acceleration, hub axes, by (v_dot, omega_dot) of the body.
-    fn hub_by_body(&self) -> [[f64; 6]; 6] {
+    pub(super) fn hub_by_body(&self) -> [[f64; 6]; 6] {
         let nothing = Vec3::zero();
         let mut by_body = [[0.0; 6]; 6];
         for k in 0..6 {

@@ -47,7 +47,8 @@ impl RigidRates {
         }
         let nothing = Vec3::zero();
         let mut airframe = Matrix6::zeros();
-        let mut to_hub = Matrix6::zeros();
+        let by_body = aircraft.hub_by_body();
+        let to_hub = Matrix6::from_fn(|i, k| by_body[i][k]);
         for k in 0..6 {
             let mut unit = [0.0; 6];
             unit[k] = 1.0;
@@ -55,8 +56,6 @@ impl RigidRates {
             let (force, moment) =
                 aircraft.airframe.mass.inertial_residual(nothing, nothing, v_dot, omega_dot, nothing);
             airframe.set_column(k, &-joined(force.array(), moment.array()));
-            let hub = aircraft.rotor.hub_motion(nothing, nothing, v_dot, omega_dot, nothing);
-            to_hub.set_column(k, &joined(hub.acceleration_less_gravity.array(), hub.omega_dot.array()));
         }
         let none = BladeInertia {
             shared: [Vector6::zeros(); MOST_HINGES],

@@ -26,7 +26,7 @@ pub struct Rotor {
     pub n_blades: usize,
     /// Section tables.
     pub airfoil: Airfoil,
-    /// Thin sections of a Weissinger blade on a free wake, in place of the tables' lift.
+    /// Law of sections that meet the air at three quarters of the chord; none on a lifting line.
     pub thin: Option<ThinSection>,
     /// Damper of every blade.
     pub lag_damper: Option<LagDamper>,
