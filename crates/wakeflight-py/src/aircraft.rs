@@ -297,7 +297,7 @@ impl PyAircraft {
     /// Circulation and near wake solved together for a set of blade instants.
     ///
     /// psi (m,), q and q_dot (m, n_modes), lambda_far and start (m, n_stations); hub motion in hub axes; sticks [m], [m/s].
-    /// Returns circulation, total inflow (m, n_stations), largest residual [m2/s], number not converged.
+    /// Returns circulation, total inflow (m, n_stations), largest residual [m2/s], number that Newton did not find from `start`.
     #[allow(clippy::too_many_arguments, clippy::type_complexity, reason = "one call per exchange")]
     fn solve_circulation<'py>(
         &self,
@@ -341,7 +341,7 @@ impl PyAircraft {
             .map_err(|e| pyo3::exceptions::PyArithmeticError::new_err(e.to_string()))?;
         let shape = |v| Array::from_shape_vec((instants.len(), n), v).map_err(invalid);
         let (gamma, inflow) = (shape(all.gamma)?, shape(all.inflow)?);
-        Ok((gamma.into_pyarray(py), inflow.into_pyarray(py), all.residual, all.not_converged))
+        Ok((gamma.into_pyarray(py), inflow.into_pyarray(py), all.residual, all.followed))
     }
 
     /// Circulation [m2/s] of one blade's sections and its slope by inflow, for inflow (n_stations,).
