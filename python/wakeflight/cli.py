@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 import sys
+from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -183,12 +184,11 @@ def trim(
     from .progress import Progress
     from .trim import trim as solve
 
+    solve = _keeping(solve, lambda found: _save_trim(found, request.out))
     with Progress() as progress:
         start = solve(request.aircraft, request.condition, inflow=request.inflow, progress=progress)
     print(start.table())
-    path = _folder(request.out) / "trim.nc"
-    start.to_dataset().to_netcdf(path, engine="h5netcdf")
-    print(f"wrote {path}")
+    _save_trim(start, request.out)
 
 
 @app.command()
@@ -418,9 +418,11 @@ def tunnel(
     folder = _writable(out or Path("runs/tunnel"))
     from .plotting import tunnel as drawing
     from .progress import Progress
+    from .results import save
     from .tunnel import configured
     from .tunnel import tunnel as solve
 
+    solve = _keeping(solve, lambda stand: stand.save(_folder(folder) / "tunnel.nc"))
     wake = {"azimuth_step": azimuth_step, "turns": wake_turns, "scheme": wake_scheme}
     given = {name: value for name, value in wake.items() if value is not None}
     conditions = {"speed": speed, "shaft_angle": shaft_angle, "climb": climb, "omega": omega}
@@ -458,9 +460,8 @@ def tunnel(
         result.save(_folder(folder) / "tunnel.nc")
         written = [folder / "tunnel.nc", *drawing.write(result.data, folder)]
         if duration is not None:
-            from .results import save
-
-            data = result.transient(moved, duration, progress)
+            followed = _keeping(result.transient, lambda data: save(data, folder / "transient.nc"))
+            data = followed(moved, duration, progress)
             written += [save(data, folder / "transient.nc"), drawing.write_transient(data, folder)]
     print(f"wrote {folder / 'tunnel.nc'}, {', '.join(each.name for each in written[1:])}")
 
@@ -661,6 +662,27 @@ def _pace(data: Any) -> str:
         f"flew {flown:.2f} s in {taken:.3g} s, {flown / taken:.3g} times as fast as time: wake {wake:.3g} s, flight dynamics "
         f"{dynamics:.3g} s by {data.attrs['integration_method']}, {data.attrs['blades']} blades"
     )
+
+
+def _keeping(verb: Callable[..., Any], save: Callable[[Any], Any]) -> Callable[..., Any]:
+    """`verb`, with what it had computed saved where it ends in a numerical failure."""
+
+    def kept(*arguments: Any, **named: Any) -> Any:
+        try:
+            return verb(*arguments, **named)
+        except NumericalFailure as failure:
+            if failure.partial is not None:
+                save(failure.partial)
+            raise
+
+    return kept
+
+
+def _save_trim(start: Any, out: Path) -> None:
+    """Write trim.nc."""
+    path = _folder(out) / "trim.nc"
+    start.to_dataset().to_netcdf(path, engine="h5netcdf")
+    print(f"wrote {path}")
 
 
 def _save(flight: Any, out: Path, progress: Progress) -> None:

@@ -24,6 +24,7 @@ from .inflow import DynamicInflow, InflowModel, RelaxationWake, TimeMarchingWake
 from .integrators import INTEGRATORS
 from .maneuvers import Maneuver
 from .model import Model
+from .monitors import warnings as monitored
 from .progress import Progress, Silent
 from .recorder import Recorder
 from .trim import INCH, Trim
@@ -194,6 +195,7 @@ def fly(
     n_steps = flown_steps(model, maneuver, revolutions)
     sticks = Sticks(maneuver, start.stick_si)
     warnings = maneuver.check_travel(sticks.trim_in, travel, None, start.aircraft.stick_rate_limit_in)
+    warnings += [f"trim: {text}" for text in start.warnings]
     for text in warnings:
         progress(f"warning: {text}")
 
@@ -242,7 +244,9 @@ def fly(
         revolution = (recorder.n_recorded - 1) / model.steps_per_revolution
         failure = f"flight of {maneuver.name} stopped in revolution {revolution:.2f}: {reason}"
 
-    for text in recorder.validity():
+    if recorder.n_recorded == 0:
+        raise NumericalFailure(failure)
+    for text in monitored(recorder.monitors):
         warnings.append(text)
         progress(f"warning: {text}")
     attributes = {

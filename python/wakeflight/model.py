@@ -13,7 +13,8 @@ import numpy as np
 from . import _core
 from .aircraft import Aircraft
 from .condition import FlightCondition
-from .inflow import DynamicInflow, InflowModel
+from .inflow import DynamicInflow, InflowModel, RelaxationWake, TimeMarchingWake
+from .monitors import Bounds, bounds
 from .units import STANDARD_GRAVITY
 
 
@@ -23,6 +24,7 @@ class CompiledRotor:
     aircraft: Any
     inflow: InflowModel
     core: Any
+    speed_of_sound: float
     n_controls: ClassVar[int]
     """How many controls stand at the head of the unknowns."""
 
@@ -67,6 +69,22 @@ class CompiledRotor:
         """Options of the free wake as the core reads them (JSON)."""
         return json.dumps(self.inflow.core_options(self.aircraft))
 
+    @property
+    def rotor_tables(self) -> dict[str, Any]:
+        """Blade and airfoil as the core was given them."""
+        raise NotImplementedError
+
+    @property
+    def has_thin_sections(self) -> bool:
+        """Whether the blades lift as thin sections without stall instead of by their tables."""
+        return False
+
+    @cached_property
+    def bounds(self) -> Bounds:
+        """What the motion of this rotor can give at most."""
+        wake = self.inflow if isinstance(self.inflow, RelaxationWake | TimeMarchingWake) else None
+        return bounds(self.rotor, self.rotor_tables, self.speed_of_sound, wake, self.has_thin_sections)
+
     def disk_mean(self, inflow: np.ndarray) -> float:
         """Area mean of an inflow map (..., n_stations)."""
         return float(np.mean(inflow @ self.area_weights))
@@ -105,6 +123,11 @@ class Model(CompiledRotor):
             d.reference_pitch,
         )
         return cls(aircraft, condition, inflow, core, data, density, speed_of_sound)
+
+    @property
+    def rotor_tables(self) -> dict[str, Any]:
+        """Blade and airfoil as the core was given them."""
+        return self.data["rotor"]
 
     def linearised(self) -> _core.Linearised:
         """Room for the derivatives of F."""

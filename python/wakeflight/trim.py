@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,7 @@ from .condition import FlightCondition, condition_for
 from .errors import NumericalFailure
 from .inflow import DynamicInflow, InflowModel, TimeMarchingWake, inflow_model, trim_model
 from .model import Model
+from .monitors import Monitor, failures, warnings
 from .progress import Progress, Silent
 from .units import STANDARD_GRAVITY
 from .wake_trim import WakeInTrim, marching_map
@@ -120,6 +122,23 @@ class Trim:
         """Incidence of the stabilator, trailing edge down positive [rad]."""
         return self.model.core.trim_stabilator(self.problem, self.x)
 
+    @cached_property
+    def monitors(self) -> tuple[Monitor, ...]:
+        """What is watched of this trim, each with its values and what it says."""
+        from .trim_monitors import monitors
+
+        return monitors(self)
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What lies beyond a limit of the aircraft or of the model."""
+        return (*self.aircraft.warnings, *warnings(self.monitors))
+
+    @property
+    def failures(self) -> tuple[str, ...]:
+        """What lies beyond physics: a trim that has any is raised in a `NumericalFailure`, not returned."""
+        return failures(self.monitors)
+
     def state(self, t: float = 0.0) -> np.ndarray:
         """State y of the trimmed revolution at time `t` [s]."""
         return self.model.core.trim_state(self.problem, self.x, t)[0]
@@ -160,7 +179,8 @@ def trim(
     n_harmonics: harmonics of the blades' periodic motion. control_tolerance: change of a pitch control [rad] between trims on a
     free wake at which they rest.
 
-    Raises `InputError` for bad input and `NumericalFailure`, naming the equation that is not met, where no trim is found.
+    Raises `InputError` for bad input and `NumericalFailure`, naming the equation that is not met, where no trim is found; also
+    where what was found is beyond physics, with the trim as `partial`. What is beyond a limit stands in `.warnings`.
     """
     progress = progress or Silent()
     started = time.perf_counter()
@@ -177,7 +197,7 @@ def trim(
     progress.advance(1, "dynamic inflow")
     if isinstance(chosen, DynamicInflow):
         inflow_map, circulation = dynamic_map(simple, problem, x)
-        return Trim(simple, problem, x, inflow_map, circulation, None, time.perf_counter() - started)
+        return physical(Trim(simple, problem, x, inflow_map, circulation, None, time.perf_counter() - started))
 
     model = Model.build(aircraft, condition, trim_model(chosen))
     inflow_map, _ = dynamic_map(simple, problem, x, model.steps_per_revolution)
@@ -193,7 +213,14 @@ def trim(
             model, problem, x, wake, n_harmonics, progress, control_tolerance
         )
     seconds = time.perf_counter() - started
-    return Trim(model, problem, x, inflow_map, circulation, wake, seconds, history, dict(wake.counters))
+    return physical(Trim(model, problem, x, inflow_map, circulation, wake, seconds, history, dict(wake.counters)))
+
+
+def physical(found: Trim) -> Trim:
+    """`found`, unless a monitor says that it is no answer."""
+    if found.failures:
+        raise NumericalFailure(f"trim: {'; '.join(found.failures)}", partial=found)
+    return found
 
 
 def on_relaxation(
@@ -404,7 +431,9 @@ def on_marching(
     """Trim on the time-marching wake: march a revolution at the trimmed motion, trim on its inflow, until controls rest."""
     march = wake.marching(model)
     for revolution in range(60):
+        before_turn = march.circulation_not_converged
         inflow_map, circulation = marching_map(march, problem, x)
+        wake.not_converged = march.circulation_not_converged - before_turn
         before = model.pitch_controls(x[:4])
         problem = trim_problem(model, inflow_map, n_harmonics)
         x = solve(model, problem, x)

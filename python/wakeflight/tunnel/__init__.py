@@ -9,7 +9,7 @@ from inspect import signature
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..errors import InputError
+from ..errors import InputError, NumericalFailure
 from ..inflow import DynamicInflow
 from ..progress import Progress, Silent
 from .annular import check_axial, on_annuli
@@ -109,10 +109,11 @@ def tunnel(
     -------
     Tunnel : `.ct`, `.cq`, `.cp`, `.figure_of_merit`, `.thrust`, `.torque`, `.power`, `.beta_0`, `.beta_1c`, `.beta_1s`,
         `.theta_0`, `.theta_1c`, `.theta_1s`, `.hub_force`, `.hub_moment`, `.aero_force`, `.aero_moment`, `.settled`,
-        `.notes`, `.data` (xarray Dataset), `.wake_velocity(points)`, `.table()`, `.save(path)`.
+        `.notes`, `.warnings`, `.monitors`, `.data` (xarray Dataset), `.wake_velocity(points)`, `.table()`, `.save(path)`.
 
-    Raises `InputError` for bad input and `NumericalFailure` where no solution is found. A wake that does not settle is
-    no error: `.settled` is False, `.notes` and the means' scatter say how much it moves.
+    Raises `InputError` for bad input and `NumericalFailure` where no solution is found, or one beyond physics, which is then its
+    `partial`. A wake that does not settle is no error: `.settled` is False, `.notes` and the means' scatter say how much it
+    moves. What is beyond a limit of the model stands in `.warnings`, and in `.notes`.
     """
     started = time.perf_counter()
     progress = progress or Silent()
@@ -128,7 +129,10 @@ def tunnel(
         found = on_annuli(wake, with_dynamic_inflow(simple), progress)
     else:
         found = solution(simple, wake, options, progress)
-    return Tunnel(found, time.perf_counter() - started)
+    stand = Tunnel(found, time.perf_counter() - started)
+    if stand.failures:
+        raise NumericalFailure(f"rotor on the stand: {'; '.join(stand.failures)}", partial=stand)
+    return stand
 
 
 def check(aircraft: str | Path | Aircraft | Rotor, inflow: str | StandInflow, **given: Any) -> None:

@@ -109,6 +109,21 @@ class StandModel(CompiledRotor):
         return _core.StandProblem(c.velocity, c.rates, controls, higher, self.n_harmonics, fine, inflow_map)
 
     @property
+    def rotor_tables(self) -> dict[str, Any]:
+        """Blade and airfoil as the core was given them."""
+        return self.aircraft.data
+
+    @property
+    def speed_of_sound(self) -> float:
+        """Speed of sound [m/s]."""
+        return self.condition.speed_of_sound
+
+    @property
+    def has_thin_sections(self) -> bool:
+        """Whether the blades lift as thin sections without stall instead of by their tables."""
+        return self.blade_model.startswith("weissinger")
+
+    @property
     def dynamic_pressure_area(self) -> float:
         """rho pi R^2 (Omega R)^2 [N]: a force over it is its coefficient."""
         return self.condition.density * np.pi * self.rotor["radius"] ** 2 * self.tip_speed**2
