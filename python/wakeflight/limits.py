@@ -58,7 +58,7 @@ def _stall(alpha: np.ndarray, cl: np.ndarray, sign: float) -> float:
 
 
 def stalled(angles: StallAngles, alpha: np.ndarray, mach: np.ndarray, slow: float = 0.0) -> np.ndarray:
-    """Whether sections at `alpha` [rad] and `mach` are beyond stall; not counted: reversed flow, and Mach numbers below `slow`."""
+    """Whether sections at `alpha` [rad] and `mach` are beyond stall; not counted: reversed flow, Mach numbers below `slow`."""
     low, high = angles.at(np.asarray(mach))
     turned = np.remainder(np.asarray(alpha) + np.pi, 2 * np.pi) - np.pi
     return ~reversed_flow(turned) & ((turned < low) | (turned > high)) & (np.asarray(mach) >= slow)

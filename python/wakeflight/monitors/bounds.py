@@ -52,7 +52,7 @@ class Bounds:
         return np.sqrt(self.n_blades * self.lift_max * lift / (8.0 * np.pi)).max(axis=-1)
 
     def vortex(self, mu: Any) -> Any:
-        """A tip vortex of the largest circulation, 1/2 U c cl_max, at its core radius: Gamma/(2 sqrt(2) pi r_c) [vatistas1991]."""
+        """A tip vortex of the largest circulation, U c cl_max/2, at its core radius: Gamma/(2 sqrt(2) pi r_c) [vatistas1991]."""
         if self.core is None:
             return 0.0 * np.asarray(mu)
         circulation = 0.5 * self.lift_max * (self.chord * (self.station + _column(mu))).max(axis=-1)
@@ -73,8 +73,8 @@ class Bounds:
     def inflow(self, velocity: Any, theta: Any) -> tuple[Any, Any]:
         """Induced velocity up to which one cause is enough, and beyond which all together are not: to warn of, to fail at.
 
-        velocity (..., 3): of the hub through the air over the tip speed, hub axes (x aft, y right, z up); theta (..., 3): pitch at
-        the root theta_0, theta_1c, theta_1s [rad].
+        velocity (..., 3): of the hub through the air over the tip speed, hub axes (x aft, y right, z up); theta (..., 3): pitch
+        at the root theta_0, theta_1c, theta_1s [rad].
         """
         mu = np.hypot(np.asarray(velocity)[..., 0], np.asarray(velocity)[..., 1])
         ring, vortex, section = VORTEX_RING * self.ring(mu), self.vortex(mu), self.section(velocity, theta)

@@ -117,8 +117,8 @@ def over_passage(values: Any, steps: int) -> Any:
 def pitch(found: dict[str, float], axial_angle: float, why: str) -> Monitor:
     """Pitch that was found against what a blade can do with: collective at 3/4 R from its flow, amplitude of the cyclic.
 
-    found: `collective` (at 3/4 R) and `cyclic` [rad], those found and not given; axial_angle: of the flow at 3/4 R [rad], climb +;
-    why: what else is known of the solution.
+    found: `collective` (at 3/4 R) and `cyclic` [rad], those found and not given; axial_angle: of the flow at 3/4 R, climb +; why:
+    what else is known of the solution.
     """
     angles = {name: angle - (axial_angle if name == "collective" else 0.0) for name, angle in found.items()}
     beyond = [
