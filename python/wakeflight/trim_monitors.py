@@ -76,6 +76,7 @@ def closest_vortex(model: CompiledRotor, wake: WakeInTrim) -> float:
     return vortices.closest(
         wake.relaxation.position(),
         wake.relaxation.core_radius(),
+        wake.psi,
         model.n_blades,
         model.rotor["hinge_offset"],
         blade["root_cutout"],

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -18,7 +19,7 @@ THINNEST_CORE = 0.05
 """Core radius of a tip vortex over the chord below which none is taken, whatever the options of the wake say."""
 UNCERTAIN_ANGLE = 0.1
 """Angle [rad] that flapping, elastic twist and the zero-lift angle may add to the pitch of a section."""
-AZIMUTHS = 36
+AZIMUTHS = 12
 """Azimuths at which a section's pitch and speed are looked at."""
 OUT_OF_PLANE = 1.1
 """Speed of a section over its largest in-plane speed: velocities of 0.45 across the disk, sqrt(1 + 0.45^2)."""
@@ -61,14 +62,15 @@ class Bounds:
     def section(self, velocity: Any, theta: Any) -> Any:
         """The section's own near wake, which acts until the section no longer lifts: velocity across its zero-lift line.
 
-        |U_T| sin|theta| + |mu_z|, the largest of all azimuths and stations, U_T = r - mu_x sin psi + mu_y cos psi.
+        |U_T| sin|theta| + |mu_z|, the largest of all azimuths and stations, U_T = r - mu_x sin psi + mu_y cos psi; the sine is
+        taken as the angle, at most 1.
         """
         psi = 2 * np.pi * np.arange(AZIMUTHS)[:, None] / AZIMUTHS
         (x, y, z), (mean, cosine, sine) = (np.moveaxis(np.asarray(each), -1, 0) for each in (velocity, theta))
         x, y, mean, cosine, sine = (np.asarray(each)[..., None, None] for each in (x, y, mean, cosine, sine))
         along = np.abs(self.station - x * np.sin(psi) + y * np.cos(psi))
         angle = np.abs(mean + self.twist + cosine * np.cos(psi) + sine * np.sin(psi)) + UNCERTAIN_ANGLE
-        return (along * np.sin(np.minimum(angle, 0.5 * np.pi))).max(axis=(-2, -1)) + np.abs(z)
+        return (along * np.minimum(angle, 1.0)).max(axis=(-2, -1)) + np.abs(z)
 
     def inflow(self, velocity: Any, theta: Any) -> tuple[Any, Any]:
         """Induced velocity up to which one cause is enough, and beyond which all together are not: to warn of, to fail at.
@@ -80,7 +82,7 @@ class Bounds:
         ring, vortex, section = VORTEX_RING * self.ring(mu), self.vortex(mu), self.section(velocity, theta)
         return np.maximum(np.maximum(ring, vortex), section), np.maximum(ring + vortex, section)
 
-    @property
+    @cached_property
     def least_inflow(self) -> float:
         """Induced velocity that is within the bound in any motion."""
         return float(VORTEX_RING * self.ring(0.0) + self.vortex(0.0))

@@ -91,13 +91,16 @@ def stall(
     Stall is not counted in reversed flow, nor where a section is slower than `SLOW` of the tip, `tip_mach`. weights
     (n_stations,): shares of the disk area. passage: steps of a history in which the blades pass every azimuth once.
     """
-    fields = stalled(angles, alpha, mach, SLOW * tip_mach), reversed_flow(alpha)
-    share, backward = (over_passage(places.mean_over_disk(each, weights), passage) for each in fields)
+    beyond = stalled(angles, alpha, mach, SLOW * tip_mach)
+    fields = beyond, beyond & (alpha < 0.0), reversed_flow(alpha)
+    share, below, backward = (over_passage(places.mean_over_disk(each, weights), passage) for each in fields)
     most = float(np.max(share))
     warning = None
     if most > STALLED_SHARE:
+        negative = float(np.ravel(below)[int(np.argmax(share))])
+        how = f", {100 * negative:.1f} % at negative angles" if negative > 0.0 else ""
         warning = (
-            f"{100 * most:.1f} % of the disk beyond stall{since(places.time, np.asarray(share) > STALLED_SHARE)}: "
+            f"{100 * most:.1f} % of the disk beyond stall{how}{since(places.time, np.asarray(share) > STALLED_SHARE)}: "
             f"steady section tables there, no dynamic stall"
         )
     text = f"{100 * most:.1f} % of the disk, {100 * float(np.max(backward)):.1f} % in reversed flow"

@@ -9,6 +9,7 @@ import numpy as np
 def closest(
     position: np.ndarray,
     core: np.ndarray,
+    psi: np.ndarray,
     n_blades: int,
     hinge: float,
     root: float,
@@ -18,12 +19,12 @@ def closest(
 ) -> float:
     """Smallest distance between a blade, root to tip, and a tip-vortex segment over the segment's core radius.
 
-    position (n_azimuths, n_ages, 3) [m], core (n_azimuths, n_ages - 1) [m]: tip vortex of the blade at each azimuth, hub axes,
-    its first node where it leaves the blade, at `release`. hinge, root, release, tip [m]: radii of the blade's hinge, of the
-    ends of its span, and of that first node. young: segments of the blade's own vortex that are left out, of its near wake.
+    position (n_azimuths, n_ages, 3) [m], core (n_azimuths, n_ages - 1) [m]: tip vortex of the blade at each azimuth of psi
+    (n_azimuths,) [rad], evenly spaced, hub axes; its first node where it leaves the blade, at `release`. hinge, root, release,
+    tip [m]: radii of the blade's hinge, of the ends of its span, and of that node. young: segments of the blade's own vortex
+    that are left out, of its near wake.
     """
     n = position.shape[0]
-    psi = 2 * np.pi * np.arange(n) / n
     at_hinge = hinge * np.stack([np.cos(psi), np.sin(psi), np.zeros(n)], axis=1)
     along = (position[:, 0] - at_hinge) / (release - hinge)
     ends = at_hinge + along * (root - hinge), at_hinge + along * (tip - hinge)
