@@ -25,13 +25,16 @@ def check_sample(
     """End the flight at a sample that the motion of the rotor cannot give; inflow and mach (n_blades, n_stations)."""
     bounds = model.bounds
     u, v, w, p, q, r = y[:6].tolist()
-    fastest = bounds.mach(math.sqrt(u * u + v * v + w * w), math.sqrt(p * p + q * q + r * r))
+    speed, rate = math.sqrt(u * u + v * v + w * w), math.sqrt(p * p + q * q + r * r)
     largest = max(inflow.max(), -inflow.min())
-    if mach.max() <= fastest and largest <= bounds.least_inflow:
+    # within these in any motion: no need to look closer
+    if largest <= bounds.least_inflow and mach.max() <= bounds.least_mach(speed, rate):
         return
     places = Places(bounds.station, azimuth[None], np.array([t]))
     velocity = np.asarray(model.core.hub(y)[0]) / model.tip_speed
-    _, bound = bounds.inflow(velocity, model.pitch_controls(stick)[[2, 0, 1]])
+    theta = model.pitch_controls(stick)[[2, 0, 1]]
+    _, bound = bounds.inflow(velocity, theta)
+    fastest = bounds.mach(speed, rate, bounds.section(velocity, theta))
     if largest > bound:
         raise NumericalFailure(rotor.beyond_motion(largest, bound, places.of(np.abs(inflow)[None])))
     if mach.max() > fastest:
@@ -49,8 +52,10 @@ def monitors(run: Recorder) -> tuple[Monitor, ...]:
     fields = {name: run.blade[name][:n] for name in ("inflow", "mach", "alpha")}
     velocity = np.array([model.core.hub(row)[0] for row in y]) / model.tip_speed
     mu, mu_z = np.hypot(velocity[:, 0], velocity[:, 1]), -velocity[:, 2]
-    usual, bound = model.bounds.inflow(velocity, np.array([model.pitch_controls(row) for row in stick])[:, [2, 0, 1]])
-    fastest = model.bounds.mach(np.linalg.norm(y[:, :3], axis=1), np.linalg.norm(y[:, 3:6], axis=1))
+    theta = np.array([model.pitch_controls(row) for row in stick])[:, [2, 0, 1]]
+    usual, bound = model.bounds.inflow(velocity, theta)
+    section = model.bounds.section(velocity, theta)
+    fastest = model.bounds.mach(np.linalg.norm(y[:, :3], axis=1), np.linalg.norm(y[:, 3:6], axis=1), section)
     tip_mach = model.tip_speed / model.speed_of_sound
     passage = model.steps_per_revolution // model.n_blades
     names = ("lateral", "longitudinal", "collective", "pedal")

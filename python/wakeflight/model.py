@@ -81,8 +81,8 @@ class CompiledRotor:
 
     @cached_property
     def bounds(self) -> Bounds:
-        """What the motion of this rotor can give at most."""
-        wake = self.inflow if isinstance(self.inflow, RelaxationWake | TimeMarchingWake) else None
+        """What the motion of this rotor can give at most; without a wake its vortices have the cores of a default one."""
+        wake = self.inflow if isinstance(self.inflow, RelaxationWake | TimeMarchingWake) else RelaxationWake()
         return bounds(self.rotor, self.rotor_tables, self.speed_of_sound, wake, self.has_thin_sections)
 
     def disk_mean(self, inflow: np.ndarray) -> float:

@@ -31,8 +31,10 @@ def monitors(start: Trim) -> tuple[Monitor, ...]:
     mu, mu_z = mean["mu"], -float(velocity[2])
     theta = start.pitch_controls
     cyclic = float(np.hypot(theta["theta_1c"], theta["theta_1s"]))
-    usual, bound = model.bounds.inflow(velocity, [theta[name] for name in ("theta_0", "theta_1c", "theta_1s")])
-    fastest = model.bounds.mach(np.linalg.norm(y[:3]), np.linalg.norm(y[3:6]))
+    pitch = [theta[name] for name in ("theta_0", "theta_1c", "theta_1s")]
+    usual, bound = model.bounds.inflow(velocity, pitch)
+    section = model.bounds.section(velocity, pitch)
+    fastest = model.bounds.mach(np.linalg.norm(y[:3]), np.linalg.norm(y[3:6]), section)
     tip_mach = model.tip_speed / model.speed_of_sound
     stalled = rotor.stall(stall_angles(tables), alpha, mach, model.area_weights, tip_mach, places)
     at_75 = theta["theta_0"] + float(np.interp(0.75, model.bounds.station, model.bounds.twist))

@@ -6,6 +6,7 @@ Ratios of velocity are over the tip speed Omega R, lengths over R. A number beyo
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -21,8 +22,9 @@ UNCERTAIN_ANGLE = 0.1
 """Angle [rad] that flapping, elastic twist and the zero-lift angle may add to the pitch of a section."""
 AZIMUTHS = 12
 """Azimuths at which a section's pitch and speed are looked at."""
-OUT_OF_PLANE = 1.1
-"""Speed of a section over its largest in-plane speed: velocities of 0.45 across the disk, sqrt(1 + 0.45^2)."""
+ACROSS = 0.45
+"""Velocity across the disk over the in-plane speed that a blade tip may have: inflow of 0.3 and flapping of 0.15."""
+SLANTED = math.hypot(1.0, ACROSS)
 
 
 @dataclass(frozen=True)
@@ -30,7 +32,7 @@ class Bounds:
     """Bounds of one rotor in one air; `ring`, `vortex` and `section` are the three causes of induced velocity.
 
     station, chord, twist (n_stations,): r/R, c/R, built-in twist [rad]; lift_max: largest |cl| of the section tables;
-    core: least core radius over R that blades see of a vortex, None where the model has no vortices.
+    core: least core radius over R that blades see of a vortex.
     """
 
     n_blades: int
@@ -41,7 +43,7 @@ class Bounds:
     chord: np.ndarray
     twist: np.ndarray
     lift_max: float
-    core: float | None
+    core: float
 
     def ring(self, mu: Any) -> Any:
         """Momentum: induced velocity of hover of the ring whose sections all have their largest lift.
@@ -54,8 +56,6 @@ class Bounds:
 
     def vortex(self, mu: Any) -> Any:
         """A tip vortex of the largest circulation, U c cl_max/2, at its core radius: Gamma/(2 sqrt(2) pi r_c) [vatistas1991]."""
-        if self.core is None:
-            return 0.0 * np.asarray(mu)
         circulation = 0.5 * self.lift_max * (self.chord * (self.station + _column(mu))).max(axis=-1)
         return circulation / (2.0 * np.sqrt(2.0) * np.pi * self.core)
 
@@ -87,32 +87,39 @@ class Bounds:
         """Induced velocity that is within the bound in any motion."""
         return float(VORTEX_RING * self.ring(0.0) + self.vortex(0.0))
 
-    def mach(self, speed: Any, rate: Any = 0.0) -> Any:
-        """Section Mach number: blade tip against a wind of `speed` [m/s] in its plane, the hub turning at `rate` [rad/s]."""
-        return OUT_OF_PLANE * ((self.omega + rate) * self.radius + speed) / self.speed_of_sound
+    def least_mach(self, speed: float, rate: float) -> float:
+        """Mach number that is within the bound at any pitch."""
+        return SLANTED * ((self.omega + rate) * self.radius + speed) / self.speed_of_sound
+
+    def mach(self, speed: Any, rate: Any = 0.0, section: Any = 0.0) -> Any:
+        """Section Mach number: blade tip against a wind of `speed` [m/s], the hub turning at `rate` [rad/s], and across.
+
+        Across the disk the tip has `ACROSS` of that speed, or what brings its section to zero lift, where that is more.
+        """
+        along = (self.omega + rate) * self.radius + speed
+        across = np.maximum(ACROSS * along, section * self.omega * self.radius)
+        return np.sqrt(along**2 + across**2) / self.speed_of_sound
 
 
 def bounds(
     rotor: Mapping[str, Any],
     tables: Mapping[str, Any],
     speed_of_sound: float,
-    wake: Any = None,
+    wake: Any,
     thin_sections: bool = False,
 ) -> Bounds:
     """Bounds of a compiled rotor.
 
     rotor: its constants as the core gives them; tables: `blade` and `airfoil` as the core was given them; wake: a free wake's
-    options, None for inflow without vortices; thin_sections: lift of thin sections (Weissinger) instead of that of the tables.
+    options, for the cores of its vortices; thin_sections: lift of thin sections (Weissinger) instead of that of the tables.
     """
     radius = rotor["radius"]
     station, chord = (np.asarray(rotor[name]) / radius for name in ("stations", "chords"))
     twist = np.interp(rotor["stations"], tables["blade"]["twist"]["x"], tables["blade"]["twist"]["y"])
-    core = None
-    if wake is not None:
-        # a filament that stretches thins its core, down to the floor of the stations
-        released = wake.trailer_core if wake.trailers == "full-span" else wake.core_radius
-        named = 0.0 if wake.core_stretching else released
-        core = max(named, max(wake.station_core_floor, THINNEST_CORE) * float(chord.min()))
+    # a filament that stretches thins its core, down to the floor of the stations
+    released = wake.trailer_core if wake.trailers == "full-span" else wake.core_radius
+    named = 0.0 if wake.core_stretching else released
+    core = max(named, max(wake.station_core_floor, THINNEST_CORE) * float(chord.min()))
     # thin sections lift by 2 pi sin(alpha) and have no stall
     lift_max = 2.0 * np.pi if thin_sections else largest(tables["airfoil"]["cl"]["values"])
     return Bounds(rotor["n_blades"], rotor["omega"], radius, speed_of_sound, station, chord, twist, lift_max, core)

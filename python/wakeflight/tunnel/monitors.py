@@ -23,8 +23,10 @@ def monitors(stand: Tunnel) -> tuple[Monitor, ...]:
     alpha, mach, inflow = fields
     places = Places(model.stations / stand.radius, psi)
     velocity = np.asarray(condition.velocity) / model.tip_speed
-    usual, bound = model.bounds.inflow(velocity, [stand.theta_0, stand.theta_1c, stand.theta_1s])
-    fastest = model.bounds.mach(np.linalg.norm(condition.velocity), np.linalg.norm(condition.rates))
+    theta = [stand.theta_0, stand.theta_1c, stand.theta_1s]
+    usual, bound = model.bounds.inflow(velocity, theta)
+    section = model.bounds.section(velocity, theta)
+    fastest = model.bounds.mach(np.linalg.norm(condition.velocity), np.linalg.norm(condition.rates), section)
     tip_mach = model.tip_speed / model.speed_of_sound
     stalled = rotor.stall(stall_angles(tables), alpha, mach, model.area_weights, tip_mach, places)
     mu, mu_z = condition.mu(model.tip_speed), condition.mu_z(model.tip_speed)

@@ -188,8 +188,10 @@ def _check(stand: Tunnel, inflow: np.ndarray, mach: np.ndarray, psi: np.ndarray,
     """End where an instant is beyond what the motion of the rotor can give."""
     model, condition = stand.model, stand.model.condition
     velocity = np.asarray(condition.velocity) / model.tip_speed
-    usual, bound = model.bounds.inflow(velocity, [collective, stand.theta_1c, stand.theta_1s])
-    fastest = model.bounds.mach(np.linalg.norm(condition.velocity), np.linalg.norm(condition.rates))
+    theta = [collective, stand.theta_1c, stand.theta_1s]
+    usual, bound = model.bounds.inflow(velocity, theta)
+    section = model.bounds.section(velocity, theta)
+    fastest = model.bounds.mach(np.linalg.norm(condition.velocity), np.linalg.norm(condition.rates), section)
     places = Places(model.stations / stand.radius, psi)
     watched = (
         rotor.induced_velocity(inflow, usual, bound, places),
