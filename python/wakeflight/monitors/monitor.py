@@ -45,6 +45,14 @@ class Places:
         along = np.asarray(values @ weights)
         return along.mean() if self.time is None else along.mean(axis=1)
 
+    def worst(self, values: np.ndarray, bound: Any) -> tuple[float, float, str]:
+        """Of the disk whose largest of `values` is largest against `bound` (a number, or (n_times,)): value, bound, place."""
+        if self.time is None:
+            return float(values.max()), float(bound), self.of(values)
+        k = int(np.argmax(self.over_disk(values) / bound))
+        there = Places(self.station, self.azimuth[k : k + 1], self.time[k : k + 1])
+        return float(values[k].max()), float(np.broadcast_to(bound, self.time.shape)[k]), there.of(values[k : k + 1])
+
     def of(self, values: np.ndarray) -> str:
         """Place of the largest of `values`, in words."""
         index = np.unravel_index(int(np.argmax(values)), values.shape)

@@ -28,16 +28,17 @@ def induced_velocity(inflow: np.ndarray, usual: Any, bound: Any, places: Places)
     """
     size = np.abs(inflow)
     largest = places.over_disk(size)
-    peak, where = float(size.max()), places.of(size)
+    value, limit, where = places.worst(size, bound)
+    text = f"{value:.3f} of the tip speed at {where} (motion can give {limit:.3f})"
     warning = failure = None
-    if np.any(largest > bound):
-        failure = beyond_motion(peak, float(np.max(bound)), where)
+    if value > limit:
+        failure = beyond_motion(value, limit, where)
     elif np.any(largest > usual):
+        value, limit, where = places.worst(size, usual)
         warning = (
-            f"induced velocity of {peak:.3f} of the tip speed at {where}: more than momentum, one vortex or the section's own "
-            f"near wake alone can give ({float(np.max(usual)):.3f})"
+            f"induced velocity of {value:.3f} of the tip speed at {where}: more than momentum, one vortex or the section's own "
+            f"near wake alone can give ({limit:.3f})"
         )
-    text = f"{peak:.3f} of the tip speed at {where} (motion can give {float(np.max(bound)):.3f})"
     values = {"inflow_max": largest, "inflow_bound": np.broadcast_to(bound, np.shape(largest))}
     return Monitor("largest inflow", text, values, warning, failure)
 
@@ -53,14 +54,17 @@ def beyond_motion(value: float, bound: float, where: str) -> str:
 def mach_number(mach: np.ndarray, bound: Any, table_end: float, places: Places) -> Monitor:
     """Largest section Mach number against that of the tip in the wind (`bound`), and against the end of the section tables."""
     largest = places.over_disk(mach)
-    peak, where = float(mach.max()), places.of(mach)
+    value, limit, where = places.worst(mach, bound)
+    peak, at = float(mach.max()), places.of(mach)
     warning = failure = None
-    if np.any(largest > bound):
-        failure = faster_than_motion(peak, float(np.max(bound)), where)
+    if value > limit:
+        failure = faster_than_motion(value, limit, where)
     elif peak > table_end:
         first = since(places.time, largest > table_end)
-        warning = f"Mach number up to {peak:.2f}, beyond the {table_end:g} of the section tables (held there), at {where}{first}"
-    text = f"{peak:.3f} at {where} (tables to {table_end:g}, motion gives {float(np.max(bound)):.3f})"
+        warning = (
+            f"Mach number up to {peak:.2f}, beyond the {table_end:g} of the section tables (held there), at {at}{first}"
+        )
+    text = f"{peak:.3f} at {at} (tables to {table_end:g}, motion gives {float(np.max(bound)):.3f})"
     values = {"mach_max": largest, "mach_bound": np.broadcast_to(bound, np.shape(largest))}
     return Monitor("largest Mach number", text, values, warning, failure)
 
