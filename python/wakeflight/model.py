@@ -90,6 +90,11 @@ class CompiledRotor:
         return float(np.mean(inflow @ self.area_weights))
 
 
+def flight_regime(aircraft: Aircraft, condition: FlightCondition) -> str:
+    """Regime of the main rotor in a flight condition, known before the trim: see `FlightCondition.regime`."""
+    return condition.regime(float(aircraft.rotor.omega) * float(aircraft.rotor.radius))
+
+
 @dataclass(frozen=True)
 class Model(CompiledRotor):
     """Aircraft, condition and inflow model compiled into F(y_dot, y, u; t) = 0."""
@@ -105,10 +110,14 @@ class Model(CompiledRotor):
 
     @classmethod
     def build(cls, aircraft: Aircraft, condition: FlightCondition, inflow: InflowModel) -> Model:
-        """Compile; the tip loss is off and the inflow states are out of y with a free wake."""
+        """Compile; the tip loss is off and the inflow states are out of y with a free wake.
+
+        Options of the wake that depend on the regime take the numbers of the condition's.
+        """
         density, speed_of_sound, _ = _core.standard_atmosphere(condition.altitude)
         data = aircraft.core_data(condition)
         d = aircraft.discretisation
+        inflow = inflow.resolved(flight_regime(aircraft, condition))
         inflow.step(aircraft)
         core = _core.Aircraft(
             json.dumps(data),

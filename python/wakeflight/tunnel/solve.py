@@ -17,8 +17,9 @@ from ..errors import NumericalFailure
 from ..exchange import MarchingExchange
 from ..inflow import trim_model
 from ..progress import Progress, Silent
+from ..regime import REVOLUTIONS
 from ..wake_trim import WakeInTrim
-from .model import REGIME_OPTIONS, REVOLUTIONS, StandModel
+from .model import StandModel
 
 EQUATION_TOLERANCE = 1e-6
 """Largest residual: angle [rad] of a blade harmonic or control, blade loading, inflow ratio."""
@@ -359,10 +360,8 @@ def solution(
         return start
     if not model.is_marching:
         return on_relaxation(model, start, progress)
-    relaxation, regime = trim_model(model.inflow), model.condition.regime(model.tip_speed)
-    if regime != "forward":
-        relaxation = replace(relaxation, relaxation=REGIME_OPTIONS[regime]["relaxation"])
-    tumbling = regime != "forward" and model.inflow.trailers == "full-span"
+    relaxation = trim_model(model.inflow)
+    tumbling = model.condition.regime(model.tip_speed) != "forward" and model.inflow.trailers == "full-span"
     if tumbling:
         relaxation = replace(relaxation, **START)
     relaxed = StandModel.build(model.aircraft, model.condition, relaxation, model.n_harmonics, model.blade_model)
