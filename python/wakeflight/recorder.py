@@ -153,7 +153,7 @@ class Recorder:
                 **attributes,
                 **counted,
                 **convergence_attributes(phase),
-                "warnings": "; ".join(warnings),
+                "warnings": "\n".join(warnings),
                 "failure": failure or "",
             },
         )

@@ -414,5 +414,5 @@ ATTRIBUTES: tuple[Attribute, ...] = (
     Attribute("segment_evaluations_trim", "wake segment evaluations: trim"),
     Attribute("segment_evaluations_convergence", "wake segment evaluations: convergence phase"),
     Attribute("relaxation_iterations_trim", "relaxation iterations: trim"),
-    Attribute("warnings", "warnings"),
+    Attribute("warnings", "warnings, one a line"),
 )

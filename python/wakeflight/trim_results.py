@@ -136,7 +136,7 @@ def to_dataset(start: Trim) -> xr.Dataset:
         },
         "condition": start.condition.as_attributes(),
         "seconds_trim": start.seconds,
-        "warnings": "; ".join(start.warnings),
+        "warnings": "\n".join(start.warnings),
         "failure": "; ".join(start.failures),
         **start.counters,
     }

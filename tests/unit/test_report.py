@@ -51,7 +51,7 @@ def test_the_summary_says_what_was_flown_and_what_it_cost(written):
 
 
 def test_warnings_and_monitors_are_on_the_page(tmp_path):
-    told = "collective at 11.40 in, beyond its stop at 10 in; 21.6 % of the disk beyond stall"
+    told = "collective at 11.40 in, beyond its stop at 10 in\n21.6 % of the disk beyond stall"
     run = synthetic.run("dynamic", revolutions=2, warnings=told)
     run["stick_margin"] = ("time", np.linspace(1.0, -1.4, run.sizes["time"]))
     page = report.write(run, tmp_path).read_text()

@@ -44,7 +44,8 @@ def sticks(stick: Mapping[str, Any], travel: Sequence[float], time: np.ndarray |
                 f"{first}"
             )
     least = np.min(margins, axis=0)
-    closest = f"{float(np.min(least)):.2f} in from a stop at least"
+    left = float(np.min(least))
+    closest = f"{left:.2f} in from a stop at least" if left >= 0.0 else f"{-left:.2f} in beyond a stop"
     first, *more = texts or [None]
     return [
         Monitor("stick margin", closest, {"stick_margin": least}, first),

@@ -169,10 +169,9 @@ def axial_flow(mu: Any, mu_z: Any, ct: Any, momentum: bool, time: np.ndarray | N
 
 
 def _span(value: Any) -> str:
-    """A number, or the two ends of a history."""
-    if np.ndim(value) == 0:
-        return f"{float(value):.4f}"
-    return f"{float(np.min(value)):.4f} to {float(np.max(value)):.4f}"
+    """A number, or the two ends of a history; what rounds to zero has no sign."""
+    ends = [f"{round(float(each), 4) + 0.0:.4f}" for each in (np.min(value), np.max(value))]
+    return ends[0] if np.ndim(value) == 0 else " to ".join(ends)
 
 
 def vortex_distance(distance: Any) -> Monitor:

@@ -102,7 +102,7 @@ def warnings(run: xr.Dataset) -> list[str]:
     if isinstance(kept, str) and kept.startswith("["):
         kept = json.loads(kept)
     elif isinstance(kept, str):
-        kept = kept.split("; ") if kept not in ("", "none") else []
+        kept = kept.splitlines() if kept != "none" else []
     return [str(text) for text in kept]
 
 

@@ -440,7 +440,7 @@ class Tunnel:
             "averaged": self.averaged,
             "settled": int(self.settled),
             "notes": "; ".join(self.notes),
-            "warnings": "; ".join(self.warnings),
+            "warnings": "\n".join(self.warnings),
             "failure": "; ".join(self.failures),
             "circulation_not_converged": self.solution.unsolved,
             "residual": self.residual,
