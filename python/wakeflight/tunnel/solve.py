@@ -162,9 +162,6 @@ def on_relaxation(model: StandModel, start: Solution, progress: Progress | Silen
         if outer > 0 and change < CHANGE_TOLERANCE and wake.converged:
             settled = True
             break
-        wake.mean_inflow = carrying_inflow(model, problem, x, inflow_map)
-        if wake.relaxation is not None:
-            wake.relaxation.set_mean_inflow(wake.mean_inflow)
         try:
             wake.converge(problem, x)
         except ArithmeticError as reason:
@@ -195,16 +192,6 @@ def _stalled(history: list[dict[str, float]]) -> bool:
     """Whether the last pass brought nothing: the inflow changes no less than three passes before."""
     recent = [each["inflow_change"] for each in history[-3:]]
     return len(recent) == 3 and recent[-1] > 0.5 * recent[0]
-
-
-def carrying_inflow(model: StandModel, problem: _core.StandProblem, x: np.ndarray, inflow_map: np.ndarray) -> float:
-    """Momentum inflow of the present thrust: what carries the first guess and the inboard sheet."""
-    n = inflow_map.shape[0]
-    psi = 2 * np.pi * np.arange(n) / n
-    force = model.core.passages(problem, x, psi, inflow_map)["aero_force"]
-    ct = model.n_blades * float(force[:, 2].mean()) / model.dynamic_pressure_area
-    c = model.condition
-    return momentum_inflow(ct, c.mu(model.tip_speed), c.mu_z(model.tip_speed))
 
 
 def largest_change(model: StandModel, problem: _core.StandProblem, before: np.ndarray, after: np.ndarray) -> float:
