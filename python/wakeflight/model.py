@@ -89,6 +89,21 @@ class CompiledRotor:
         """Area mean of an inflow map (..., n_stations)."""
         return float(np.mean(inflow @ self.area_weights))
 
+    def carrying_inflow(self, circulation: np.ndarray, hub_velocity: np.ndarray) -> float:
+        """Inflow of momentum theory for the thrust of a circulation map (n_azimuths, n_stations) [m2/s]: it carries the sheet.
+
+        Thrust by Kutta-Joukowski from the speed along the chord of a blade without flapping, Omega r + V sin psi; hub velocity
+        [m/s] in hub axes.
+        """
+        psi = 2 * np.pi * np.arange(circulation.shape[0]) / circulation.shape[0]
+        across = hub_velocity[1] * np.cos(psi) - hub_velocity[0] * np.sin(psi)
+        widths = np.asarray(self.rotor["widths"])
+        lift = circulation @ (self.omega * self.stations * widths) + across * (circulation @ widths)
+        disk = np.pi * self.rotor["radius"] ** 2 * self.tip_speed**2
+        ct = self.n_blades * float(np.mean(lift)) / disk
+        mu = np.hypot(hub_velocity[0], hub_velocity[1]) / self.tip_speed
+        return _core.momentum_inflow(ct, float(mu * mu), float(-hub_velocity[2] / self.tip_speed), False)
+
 
 def flight_regime(aircraft: Aircraft, condition: FlightCondition) -> str:
     """Regime of the main rotor in a flight condition, known before the trim: see `FlightCondition.regime`."""

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from . import _core
-from .errors import InputError
+from .errors import InputError, NumericalFailure
 from .exchange import MarchingExchange
 from .model import CompiledRotor
 
@@ -31,18 +31,16 @@ class WakeInTrim:
         self.model = model
         self.n = model.steps_per_revolution
         self.psi = 2 * np.pi * np.arange(self.n) / self.n
-        self.mean_inflow = model.disk_mean(inflow_map)
         self.lambda_far = inflow_map.copy()
         self.circulation = np.zeros_like(inflow_map)
         self.inflow_map = inflow_map
         self.relaxation: _core.RelaxationWake | None = None
         self.converged = False
         self.last: dict[str, float] = {}
-        self.not_converged = 0
         self.counters = {
             "relaxation_iterations": 0,
             "wake_segment_evaluations": 0,
-            "circulation_not_converged": 0,
+            "circulation_followed": 0,
         }
 
     def converge(self, problem: _core.TrimProblem, x: np.ndarray) -> np.ndarray:
@@ -64,7 +62,8 @@ class WakeInTrim:
         stick = np.asarray(stick)
         if self.relaxation is None:
             try:
-                self.relaxation = _core.RelaxationWake(model.wake_options, *hub, self.mean_inflow)
+                mean = model.disk_mean(self.inflow_map[:, : model.stations.size])
+                self.relaxation = _core.RelaxationWake(model.wake_options, *hub, mean)
             except ValueError as reason:
                 raise InputError(f"wake: {reason}") from reason
             # before there is a wake, the map given serves as total inflow
@@ -76,6 +75,7 @@ class WakeInTrim:
         share, least = options.inflow_relaxation, np.inf
         for iteration in range(max_iterations):
             self.relaxation.set_state(*hub, flap, lead, self.circulation)
+            self.relaxation.set_mean_inflow(model.carrying_inflow(self.circulation, hub[0]))
             norms = self.relaxation.sweep(options.sweeps)
             far = self.relaxation.inflow_far()
             change = far - self.lambda_far
@@ -95,7 +95,6 @@ class WakeInTrim:
                 "geometry_change": float(norms[-1, 0]),
                 "first_turn_change": float(norms[-1, 1]),
                 "iterations": iteration + 1,
-                "circulation_not_converged": self.not_converged,
             }
             if (
                 rms < options.inflow_tolerance
@@ -125,11 +124,13 @@ class WakeInTrim:
             ]
             self.circulation, self.inflow_map = np.array(rows), self.lambda_far
             return
-        self.circulation, self.inflow_map, _, failed = self.model.core.solve_circulation(
-            self.model.wake_options, y, stick, np.zeros(len(stick)), self.psi, q, q_dot, self.lambda_far, start
-        )
-        self.counters["circulation_not_converged"] += failed
-        self.not_converged = failed
+        try:
+            self.circulation, self.inflow_map, _, followed = self.model.core.solve_circulation(
+                self.model.wake_options, y, stick, np.zeros(len(stick)), self.psi, q, q_dot, self.lambda_far, start
+            )
+        except ArithmeticError as reason:
+            raise NumericalFailure(str(reason)) from reason
+        self.counters["circulation_followed"] += followed
 
     def _thrust(self) -> float:
         """Thrust but for constant factors: integral of circulation times radius."""

@@ -95,7 +95,7 @@ def stall(
     Stall is not counted in reversed flow, nor where a section is slower than `SLOW` of the tip, `tip_mach`. weights
     (n_stations,): shares of the disk area. passage: steps of a history in which the blades pass every azimuth once.
     """
-    beyond = stalled(angles, alpha, mach, SLOW * tip_mach)
+    beyond = stalled(angles, alpha, mach, slow=SLOW * tip_mach)
     fields = beyond, beyond & (alpha < 0.0), reversed_flow(alpha)
     share, below, backward = (over_passage(places.mean_over_disk(each, weights), passage) for each in fields)
     most = float(np.max(share))
@@ -195,18 +195,6 @@ def node_motion(step: Any, radius: float, time: np.ndarray | None = None) -> Mon
             f"coarse for this wake{since(time, share > LARGE_DISPLACEMENT)}"
         )
     return Monitor("wake node motion", f"{most:.3f} R in a step at most", {"max_displacement": step}, warning)
-
-
-def unsolved(count: int, of: str, fatal: bool) -> Monitor:
-    """Inner solves of circulation and near wake that did not end in a solution; `of`: among what, as `of 36 azimuths`.
-
-    fatal: whether the result is none then; a stand is returned, not settled.
-    """
-    text = f"circulation and near wake do not agree at {count} {of}"
-    said = text if count else None
-    return Monitor(
-        "unsolved circulation", f"{count} {of}", warning=None if fatal else said, failure=said if fatal else None
-    )
 
 
 def unrenewed(count: int, renewals: int) -> Monitor:

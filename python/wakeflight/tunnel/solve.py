@@ -46,9 +46,6 @@ class Solution:
     revolutions: list[Revolution] = field(default_factory=list)
     averaged: int = 0
     settled: bool = True
-    unsolved: int = 0
-    """Solves of circulation and near wake behind the solution that did not end in one, among `solved_of`."""
-    solved_of: str = ""
     notes: list[str] = field(default_factory=list)
     history: list[dict[str, float]] = field(default_factory=list)
     snapshots: list[_core.TimeMarchingWake] = field(default_factory=list)
@@ -63,8 +60,6 @@ class Revolution:
     inflow: np.ndarray
     path: np.ndarray
     x: np.ndarray
-    unsolved: int
-    """Steps whose circulation and near wake did not agree."""
     vortex_blade_distance: float
     """Smallest distance of a tip vortex from a blade, in core radii."""
     max_displacement: float
@@ -172,9 +167,6 @@ def on_relaxation(model: StandModel, start: Solution, progress: Progress | Silen
         if outer > 0 and change < CHANGE_TOLERANCE and wake.converged:
             settled = True
             break
-        wake.mean_inflow = carrying_inflow(model, problem, x, inflow_map)
-        if wake.relaxation is not None:
-            wake.relaxation.set_mean_inflow(wake.mean_inflow)
         try:
             wake.converge(problem, x)
         except ArithmeticError as reason:
@@ -204,8 +196,6 @@ def on_relaxation(model: StandModel, start: Solution, progress: Progress | Silen
         circulation,
         wake=wake,
         settled=settled,
-        unsolved=wake.not_converged,
-        solved_of=f"of {wake.n} azimuths",
         notes=notes,
         history=history,
     )
@@ -215,16 +205,6 @@ def _stalled(history: list[dict[str, float]]) -> bool:
     """Whether the last pass brought nothing: the inflow changes no less than three passes before."""
     recent = [each["inflow_change"] for each in history[-3:]]
     return len(recent) == 3 and recent[-1] > 0.5 * recent[0]
-
-
-def carrying_inflow(model: StandModel, problem: _core.StandProblem, x: np.ndarray, inflow_map: np.ndarray) -> float:
-    """Momentum inflow of the present thrust: what carries the first guess and the inboard sheet."""
-    n = inflow_map.shape[0]
-    psi = 2 * np.pi * np.arange(n) / n
-    force = model.core.passages(problem, x, psi, inflow_map)["aero_force"]
-    ct = model.n_blades * float(force[:, 2].mean()) / model.dynamic_pressure_area
-    c = model.condition
-    return momentum_inflow(ct, c.mu(model.tip_speed), c.mu_z(model.tip_speed))
 
 
 def largest_change(model: StandModel, problem: _core.StandProblem, before: np.ndarray, after: np.ndarray) -> float:
@@ -268,7 +248,7 @@ def on_marching(
         held = new_map if revolution == 0 else 0.5 * (held + new_map)
         run.problem, run.x, run.inflow_map = problem, x, new_map
         run.circulation = by_azimuth(turned.rows, turned.passages["circulation"], march.n)
-        _average(run, min(n_mean, len(run.revolutions)))
+        run.averaged = min(n_mean, len(run.revolutions))
         # a Weissinger blade holds a second inflow behind that of the stations
         change = (new_map - last_map)[:, : model.stations.size]
         rms = float(np.sqrt(np.mean((change**2) @ model.area_weights)))
@@ -281,8 +261,7 @@ def on_marching(
         progress.advance(1, f"inflow change {relative:.1e} of its mean, blades {change:.1e} rad")
         run.history.append({"inflow_change_per_revolution": relative, "change": change})
         if revolution >= 3 and relative < SETTLED and change < 1e-5:
-            run.settled = True
-            _average(run, min(run.averaged, 2))
+            run.settled, run.averaged = True, min(run.averaged, 2)
             break
     if not run.settled:
         run.notes.append(
@@ -290,13 +269,6 @@ def on_marching(
             f"means over the last {run.averaged} of {len(run.revolutions)} revolutions"
         )
     return run
-
-
-def _average(run: Solution, n: int) -> None:
-    """Take the means of a marched solution over its last `n` revolutions."""
-    run.averaged = n
-    run.unsolved = sum(turn.unsolved for turn in run.revolutions[-n:])
-    run.solved_of = f"solves of the last {n} revolutions"
 
 
 def _diverged(run: Solution, revolution: int, reason: Exception) -> NumericalFailure:
@@ -315,7 +287,6 @@ def march_revolution(
 ) -> Revolution:
     """One revolution at the motion and pitch of `x`; `snapshots` then holds the wake of each of its steps."""
     rows, inflow, path, watched = [], [], [], []
-    unsolved = march.circulation_not_converged
     snapshots.clear()
     for _ in range(march.n):
         row, lam, _ = march.frozen_step(problem, x)
@@ -335,7 +306,6 @@ def march_revolution(
         inflow,
         np.array(path),
         x,
-        unsolved=march.circulation_not_converged - unsolved,
         vortex_blade_distance=min(each["vortex_blade_distance"] for each in watched),
         max_displacement=max(each["max_displacement"] for each in watched),
     )
