@@ -126,7 +126,7 @@ class Trim:
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """What lies beyond a limit of the aircraft or of the model."""
+        """What is doubtful in the aircraft's data, and what lies beyond a limit of aircraft or model."""
         return (*self.aircraft.warnings, *warnings(self.monitors))
 
     @property

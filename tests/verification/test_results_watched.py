@@ -49,6 +49,12 @@ def test_a_trim_beyond_the_stops_is_told_and_so_is_a_flight_from_it(fast):
     assert any(text.startswith(told) and "from t = 0.00 s" in text for text in flight.warnings)
 
 
+def test_power_beyond_the_stated_limit_is_told(fast):
+    limit = fast.aircraft.limits.power
+    assert limit is not None and float(fast.to_dataset().power) > limit
+    assert any(text.startswith("power ") and "beyond the aircraft's 2109 kW" in text for text in fast.warnings)
+
+
 def test_ordinary_flight_has_nothing_to_be_told(baseline_dynamic, baseline_relaxation):
     assert baseline_dynamic.warnings == baseline_relaxation.warnings == ()
     assert wf.fly(baseline_dynamic, HOLD, inflow="dynamic", integrator="fixed").warnings == ()
