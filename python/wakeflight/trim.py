@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -12,8 +13,10 @@ import numpy as np
 from . import _core
 from .aircraft import Aircraft
 from .condition import FlightCondition, condition_for
+from .errors import NumericalFailure
 from .inflow import DynamicInflow, InflowModel, TimeMarchingWake, inflow_model, trim_model
 from .model import Model
+from .monitors import Monitor, failures, warnings
 from .progress import Progress, Silent
 from .trim_equations import INCH, dynamic_map, residual_norms
 from .trim_solve import solve_condition
@@ -116,6 +119,23 @@ class Trim:
         """Incidence of the stabilator, trailing edge down positive [rad]."""
         return self.model.core.trim_stabilator(self.problem, self.x)
 
+    @cached_property
+    def monitors(self) -> tuple[Monitor, ...]:
+        """What is watched of this trim, each with its values and what it says."""
+        from .trim_monitors import monitors
+
+        return monitors(self)
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What is doubtful in the aircraft's data, and what lies beyond a limit of aircraft or model."""
+        return (*self.aircraft.warnings, *self.notes, *warnings(self.monitors))
+
+    @property
+    def failures(self) -> tuple[str, ...]:
+        """What lies beyond physics: a trim that has any is raised in a `NumericalFailure`, not returned."""
+        return failures(self.monitors)
+
     def state(self, t: float = 0.0) -> np.ndarray:
         """State y of the trimmed revolution at time `t` [s]."""
         return self.model.core.trim_state(self.problem, self.x, t)[0]
@@ -156,7 +176,8 @@ def trim(
     n_harmonics: harmonics of the blades' periodic motion. control_tolerance: change of a pitch control [rad] between trims on a
     free wake at which they rest.
 
-    Raises `InputError` for bad input and `NumericalFailure`, saying what limits, where no trim is found.
+    Raises `InputError` for bad input and `NumericalFailure`, saying what limits, where no trim is found; also where what was
+    found is beyond physics, with the trim as `partial`. What is beyond a limit of aircraft or model stands in `.warnings`.
     """
     progress = progress or Silent()
     started = time.perf_counter()
@@ -172,7 +193,7 @@ def trim(
     progress.advance(1, "dynamic inflow")
     if isinstance(chosen, DynamicInflow):
         inflow_map, circulation = dynamic_map(simple, problem, x)
-        return Trim(simple, problem, x, inflow_map, circulation, None, time.perf_counter() - started)
+        return physical(Trim(simple, problem, x, inflow_map, circulation, None, time.perf_counter() - started))
 
     model = Model.build(aircraft, condition, trim_model(chosen))
     inflow_map, _ = dynamic_map(simple, problem, x, model.steps_per_revolution)
@@ -182,18 +203,27 @@ def trim(
     if isinstance(chosen, TimeMarchingWake):
         model = Model.build(aircraft, condition, chosen)
         found = on_marching(model, found, wake, n_harmonics, progress, control_tolerance)
-    return Trim(
-        model,
-        found.problem,
-        found.x,
-        found.inflow_map,
-        found.circulation,
-        wake,
-        time.perf_counter() - started,
-        found.history,
-        dict(wake.counters),
-        found.notes,
+    return physical(
+        Trim(
+            model,
+            found.problem,
+            found.x,
+            found.inflow_map,
+            found.circulation,
+            wake,
+            time.perf_counter() - started,
+            found.history,
+            dict(wake.counters),
+            found.notes,
+        )
     )
+
+
+def physical(found: Trim) -> Trim:
+    """`found`, unless a monitor says that it is no answer."""
+    if found.failures:
+        raise NumericalFailure(f"trim: {'; '.join(found.failures)}", partial=found)
+    return found
 
 
 def trim_inputs(start: Trim, t: float) -> _core.Inputs:

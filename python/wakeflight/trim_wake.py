@@ -49,6 +49,7 @@ class OnWake:
     notes: tuple[str, ...] = ()
 
 
+
 def on_relaxation(
     model: Model,
     wake: WakeInTrim,
