@@ -203,8 +203,9 @@ def trim(
     inflow_map, _ = dynamic_map(simple, problem, x, model.steps_per_revolution)
     x = np.delete(x, slice(7, 10))
     wake = WakeInTrim(model, inflow_map, steadied=True)
-    found = on_relaxation(model, wake, x, inflow_map, n_harmonics, progress, control_tolerance)
-    if isinstance(chosen, TimeMarchingWake):
+    marching = isinstance(chosen, TimeMarchingWake)
+    found = on_relaxation(model, wake, x, inflow_map, n_harmonics, progress, control_tolerance, start_only=marching)
+    if marching:
         model = Model.build(aircraft, condition, chosen)
         found = on_marching(model, found, wake, n_harmonics, progress, control_tolerance)
     return physical(

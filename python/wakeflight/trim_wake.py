@@ -49,7 +49,6 @@ class OnWake:
     notes: tuple[str, ...] = ()
 
 
-
 def on_relaxation(
     model: Model,
     wake: WakeInTrim,
@@ -58,8 +57,12 @@ def on_relaxation(
     n_harmonics: int,
     progress: Progress | Silent,
     control_tolerance: float = CONTROL_TOLERANCE,
+    start_only: bool = False,
 ) -> OnWake:
-    """Trim and relaxation wake in turn until the pitch controls and the wake rest."""
+    """Trim and relaxation wake in turn until the pitch controls and the wake rest.
+
+    start_only: the start of a marching wake, which comes to rest by itself; passes until no more is gained are enough.
+    """
     history: list[dict[str, float]] = []
     before, mixing, best, since = None, 1.0, np.inf, 0
     step = np.zeros(4)
@@ -75,6 +78,8 @@ def on_relaxation(
         if outer > 2 and step @ last < -0.5 * (last @ last):
             # controls that swing back and forth: half of each change of the inflow
             mixing = max(0.5 * mixing, 0.25)
+        if change > 2.0 * control_tolerance:
+            wake.forget_means()
         try:
             wake.converge(problem, x)
         except ArithmeticError as reason:
@@ -87,6 +92,8 @@ def on_relaxation(
         best, since = (missing, 0) if missing < 0.9 * best else (best, since + 1)
         if since >= HOPELESS or wake.counters["relaxation_iterations"] > MAX_SWEEPS:
             break
+    if start_only:
+        return OnWake(problem, x, inflow_map, wake.circulation, history)
     unrest = wake.unrest()
     if change >= mixing * control_tolerance:
         unrest.append(f"pitch controls move by {change:.1e} rad between trims (allowed {mixing * control_tolerance:g})")
@@ -147,7 +154,7 @@ def on_marching(
         steady_mean = change < control_tolerance and moved < MEAN_TOLERANCE and wander < UNSTEADY
         if periodic or (not direct and steady_mean):
             wake.counters["wake_segment_evaluations"] += march.segment_evaluations
-            notes = () if periodic else (varying(wander, len(recent)),)
+            notes = () if periodic or wander < MEAN_TOLERANCE else (varying(wander, len(recent)),)
             return OnWake(problem, x, inflow_map, circulation, start.history, notes)
     limits = limiting(model, problem, x, held)
     raise NumericalFailure(

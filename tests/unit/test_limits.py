@@ -65,4 +65,6 @@ def test_a_windmill_begins_at_twice_the_hover_inflow():
     # axially v_i = V/2 -+ sqrt(V^2/4 - v_h^2) appear beside the root of powered flight
     ct, hover = 0.005, 0.05
     assert len(momentum_inflows(ct, 0.0, -1.99 * hover)) == 1
-    assert momentum_inflows(ct, 0.0, -2.5 * hover) == pytest.approx([0.5 * hover, 2.0 * hover, hover * (1.25 + np.sqrt(1.5625 + 1))])
+    assert momentum_inflows(ct, 0.0, -2.5 * hover) == pytest.approx(
+        [0.5 * hover, 2.0 * hover, hover * (1.25 + np.sqrt(1.5625 + 1))]
+    )
