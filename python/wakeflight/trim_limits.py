@@ -34,6 +34,9 @@ def limiting(
     tail = tail_loading(model, problem, x)
     if tail is not None and abs(tail) > TAIL_LOADING:
         texts.append(f"tail rotor: beyond its thrust at C_T/sigma {tail:.3f}")
+    ring = tail_in_vortex_ring(tail_flow(model, problem, x))
+    if ring is not None:
+        texts.append(ring)
     hub, _ = model.core.hub(model.core.trim_state(problem, x, 0.0)[0])
     hover = np.sqrt(0.5 * abs(rotor["ct"])) * model.tip_speed
     if in_vortex_ring(-hub[2], np.hypot(hub[0], hub[1]), hover):
@@ -84,6 +87,12 @@ def over_the_disk(
 
 def tail_loading(model: Model, problem: _core.TrimProblem, x: np.ndarray) -> float | None:
     """C_T/sigma of the tail rotor by the momentum of its inflow, C_T = 2 lambda_i sqrt(mu^2 + lambda^2); None without one."""
+    flow = tail_flow(model, problem, x)
+    return None if flow is None else flow[0] / model.data["tail_rotor"]["solidity"]
+
+
+def tail_flow(model: Model, problem: _core.TrimProblem, x: np.ndarray) -> tuple[float, float, float] | None:
+    """C_T of the tail rotor, its motion along the axis into its own wake, and in its plane, over its tip speed; None without one."""
     tail = model.data["tail_rotor"]
     if tail is None:
         return None
@@ -92,5 +101,19 @@ def tail_loading(model: Model, problem: _core.TrimProblem, x: np.ndarray) -> flo
     sin, cos = np.sin(tail["cant"]), np.cos(tail["cant"])
     velocity = (y[:3] + np.cross(y[3:6], tail["position"])) / (tail["omega"] * tail["radius"])
     axial, across = velocity[1] * cos - velocity[2] * sin, velocity[1] * sin + velocity[2] * cos
-    mu = np.hypot(velocity[0], across)
-    return float(2 * x[at] * np.hypot(mu, x[at] + axial) / tail["solidity"])
+    mu = float(np.hypot(velocity[0], across))
+    return float(2 * x[at] * np.hypot(mu, x[at] + axial)), float(-axial), mu
+
+
+def tail_in_vortex_ring(flow: tuple[float, float, float] | None) -> str | None:
+    """What is said of a tail rotor (`tail_flow`) that moves into its own wake as fast as it sends it away."""
+    if flow is None:
+        return None
+    ct, into, mu = flow
+    hover = np.sqrt(0.5 * abs(ct))
+    if not in_vortex_ring(into * np.sign(ct), mu, hover):
+        return None
+    return (
+        f"tail rotor: moves into its own wake at {abs(into) / hover:.2f} of its induced velocity at rest, in the vortex-ring range "
+        "of 0.5 to 2, where its momentum inflow has no answer"
+    )

@@ -65,10 +65,13 @@ def first_guess(model: Model, problem: _core.TrimProblem) -> np.ndarray:
 
 
 def tail_inflow(model: Model, power: float, to_the_right: float) -> float:
-    """Induced inflow of the tail rotor that holds the torque of `power` [W], flying `to_the_right` [m/s]."""
+    """Induced inflow of the tail rotor that holds the torque of `power` [W], flying `to_the_right` [m/s].
+
+    The least answer of momentum theory: that of a windmill where the tail moves into its own wake so fast that there is one.
+    """
     tail = model.data["tail_rotor"]
     tip_speed = tail["omega"] * tail["radius"]
     force = max(power, 0.0) / model.omega / abs(tail["position"][0])
     ct = force / (model.density * np.pi * tail["radius"] ** 2 * tip_speed**2)
     forward = model.condition.speed * np.cos(model.condition.flight_path) / tip_speed
-    return momentum_inflows(max(ct, 1e-4), min(forward, 0.3), to_the_right / tip_speed)[-1]
+    return momentum_inflows(max(ct, 1e-4), min(forward, 0.3), to_the_right / tip_speed)[0]

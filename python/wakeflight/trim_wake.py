@@ -31,10 +31,10 @@ DIRECT_REVOLUTIONS = 10
 """Revolutions of a marching wake that are each trimmed on; after them means are."""
 MEANS_END = (16, 22, 28, 34, 49, 64)
 """Revolutions after which the mean since the last of them is trimmed on."""
-MEAN_TOLERANCE = 3e-4
-"""Change of the mean inflow of a marching wake over the tip speed at which it rests."""
-UNSTEADY = 0.01
-"""Largest motion of the inflow of a marching wake about its mean, over the tip speed, that still has a mean flight."""
+PERIODIC = 3e-4
+"""Change of the inflow of a marching wake from turn to turn, over the tip speed, at which it is periodic."""
+MEAN_TOLERANCE = 1.5e-3
+"""Uncertainty of the mean inflow of a wake that is not, over the tip speed, with which it can be trimmed on: 3 % in hover."""
 
 
 @dataclass
@@ -128,7 +128,7 @@ def on_marching(
     problem, x = start.problem, start.x
     held, mean = start.inflow_map, None
     turns: list[tuple[np.ndarray, np.ndarray]] = []
-    moved = wander = np.inf
+    moved = chance = wander = uncertainty = np.inf
     for revolution in range(1, MEANS_END[-1] + 1):
         try:
             turns.append(marching_map(march, problem, x))
@@ -141,8 +141,11 @@ def on_marching(
         elif revolution in MEANS_END:
             recent = turns[max(end for end in (DIRECT_REVOLUTIONS, *MEANS_END) if end < revolution) :]
             inflow_map, circulation = (np.mean([each[k] for each in recent], axis=0) for k in (0, 1))
-            wander = max(rms(model, each[0] - inflow_map) for each in recent)
+            # a mean of n turns that vary independently is known to their scatter over the root of n
+            wander = float(np.sqrt(np.mean([rms(model, each[0] - inflow_map) ** 2 for each in recent])))
+            before, uncertainty = uncertainty, wander / np.sqrt(len(recent))
             moved, mean = (np.inf if mean is None else rms(model, inflow_map - mean)), inflow_map
+            chance = PERIODIC + float(np.hypot(before, uncertainty))
         else:
             continue
         controls = model.pitch_controls(x[:4])
@@ -150,17 +153,17 @@ def on_marching(
         held = inflow_map
         change = float(np.max(np.abs(model.pitch_controls(x[:4]) - controls)))
         progress.advance(1, f"marching wake: controls {change:.1e} rad")
-        periodic = direct and revolution > 3 and change < 0.1 * control_tolerance and varied < MEAN_TOLERANCE
-        steady_mean = change < control_tolerance and moved < MEAN_TOLERANCE and wander < UNSTEADY
+        periodic = direct and revolution > 3 and change < 0.1 * control_tolerance and varied < PERIODIC
+        steady_mean = change < control_tolerance and moved < chance and uncertainty < MEAN_TOLERANCE
         if periodic or (not direct and steady_mean):
             wake.counters["wake_segment_evaluations"] += march.segment_evaluations
-            notes = () if periodic or wander < MEAN_TOLERANCE else (varying(wander, len(recent)),)
+            notes = () if periodic or wander < PERIODIC else (varying(wander, len(recent)),)
             return OnWake(problem, x, inflow_map, circulation, start.history, notes)
     limits = limiting(model, problem, x, held)
     raise NumericalFailure(
         f"trim on the time-marching wake did not settle in {MEANS_END[-1]} revolutions: pitch controls move by {change:.1e} rad "
         f"between trims on means of revolutions (allowed {control_tolerance:g}), the mean inflow by {moved:.1e} of the tip speed "
-        f"(allowed {MEAN_TOLERANCE:g}), the inflow about it by {wander:.1e} (allowed {UNSTEADY:g})"
+        f"(by chance {chance:.1e}); it is known to {uncertainty:.1e} (allowed {MEAN_TOLERANCE:g}), turns vary by {wander:.1e}"
         f"{''.join(f'; {each}' for each in limits)}"
     )
 

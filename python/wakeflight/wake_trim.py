@@ -34,8 +34,8 @@ PASSES_OF_MEAN = 4
 """Passes whose means are averaged at most."""
 MEAN_MOVES = 3.0
 """Change of the mean inflow between passes, over what a change of inflow may be, with which a wake rests in the mean."""
-WANDER = 10.0
-"""Largest motion of the inflow about its mean, over the same, with which it does."""
+WANDER = 25.0
+"""Largest motion of the inflow about its mean, over the same, with which it does: a twentieth of the inflow of hover."""
 
 
 class WakeInTrim:

@@ -64,13 +64,18 @@ def power(engine: Any, limit: float | None, time: np.ndarray | None = None) -> M
     return Monitor("power at most", f"{most / 1e3:.0f} kW ({stated})", warning=warning)
 
 
-def tail_rotor(loading: float | None, limit: float) -> Monitor:
-    """C_T/sigma of the tail rotor, whose thrust formula knows no stall, against `limit`; None without a tail rotor."""
+def tail_rotor(loading: float | None, limit: float, ring: str | None = None) -> Monitor:
+    """C_T/sigma of the tail rotor, whose thrust formula knows no stall, against `limit`; None without a tail rotor.
+
+    ring: what is said of its axial flow, if anything.
+    """
     if loading is None:
         return Monitor("tail rotor", "none")
     warning = None
     if abs(loading) > limit:
         warning = f"tail rotor at C_T/sigma {loading:.3f}, beyond the {limit:g} that blades without stall can have"
+    if ring is not None:
+        warning = ring if warning is None else f"{warning}; {ring}"
     return Monitor("tail rotor", f"C_T/sigma {loading:.3f}", warning=warning)
 
 
