@@ -7,6 +7,7 @@ import math
 from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any
 
+from . import regime as regimes
 from .errors import InputError
 from .units import STANDARD_GRAVITY, convert, mass_of_weight, quantity, shown
 
@@ -116,6 +117,11 @@ class FlightCondition:
     def is_complete(self) -> bool:
         """Whether nothing is left for an aircraft to fill in."""
         return None not in (self.speed, self.flight_path, self.altitude, self.gross_mass, self.heading)
+
+    def regime(self, tip_speed: float) -> str:
+        """Regime (`wakeflight.regime`) of a rotor whose shaft stands upright: horizontal speed across it, vertical along it."""
+        across, up = self.speed * math.cos(self.flight_path), self.speed * math.sin(self.flight_path)
+        return regimes.regime(across, up, tip_speed)
 
     def completed(self, aircraft: Aircraft, named: str | None = None) -> FlightCondition:
         """This condition completed by the aircraft; `named`: one of its alternative conditions."""

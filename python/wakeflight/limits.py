@@ -57,19 +57,27 @@ def _stall(alpha: np.ndarray, cl: np.ndarray, sign: float) -> float:
     return float(zero + sign * (from_zero[shelf[0]] if shelf.size else SEARCHED))
 
 
-def stalled(angles: StallAngles, alpha: np.ndarray, mach: np.ndarray) -> np.ndarray:
-    """Whether sections at `alpha` [rad] and `mach` are beyond stall; sections in reversed flow (over 90 deg) are not counted."""
-    alpha = np.remainder(np.asarray(alpha) + np.pi, 2 * np.pi) - np.pi
+def stalled(angles: StallAngles, alpha: np.ndarray, mach: np.ndarray, slow: float = 0.0) -> np.ndarray:
+    """Whether sections at `alpha` [rad] and `mach` are beyond stall; not counted: reversed flow, Mach numbers below `slow`."""
     low, high = angles.at(np.asarray(mach))
-    return (np.abs(alpha) <= 0.5 * np.pi) & ((alpha < low) | (alpha > high))
+    turned = np.remainder(np.asarray(alpha) + np.pi, 2 * np.pi) - np.pi
+    return ~reversed_flow(turned) & ((turned < low) | (turned > high)) & (np.asarray(mach) >= slow)
 
 
-def stalled_share(airfoil: Mapping[str, Any], alpha: np.ndarray, mach: np.ndarray, weights: np.ndarray) -> float:
+def reversed_flow(alpha: np.ndarray) -> np.ndarray:
+    """Whether the air meets a section from behind: more than 90 deg either way; alpha [rad]."""
+    return np.abs(np.remainder(np.asarray(alpha) + np.pi, 2 * np.pi) - np.pi) > 0.5 * np.pi
+
+
+def stalled_share(
+    airfoil: Mapping[str, Any], alpha: np.ndarray, mach: np.ndarray, weights: np.ndarray, slow: float = 0.0
+) -> float:
     """Share of the disk (0 to 1) whose sections are beyond stall.
 
-    alpha [rad] and mach (n_azimuths, n_stations); weights (n_stations,): shares of the disk area, summing to one.
+    alpha [rad] and mach (n_azimuths, n_stations); weights (n_stations,): shares of the disk area, summing to one; slow: Mach
+    number below which a section is not counted.
     """
-    return float(np.mean(stalled(stall_angles(airfoil), alpha, mach) @ np.asarray(weights)))
+    return float(np.mean(stalled(stall_angles(airfoil), alpha, mach, slow) @ np.asarray(weights)))
 
 
 def sticks_beyond(stick: Mapping[str, float], travel: Sequence[float]) -> list[str]:

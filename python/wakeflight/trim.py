@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,7 @@ from .aircraft import Aircraft
 from .condition import FlightCondition, condition_for
 from .inflow import DynamicInflow, InflowModel, TimeMarchingWake, inflow_model, trim_model
 from .model import Model
+from .monitors import Monitor, failures, warnings
 from .progress import Progress, Silent
 from .trim_equations import INCH, dynamic_map, residual_norms
 from .trim_solve import solve_condition
@@ -114,6 +116,23 @@ class Trim:
         """Incidence of the stabilator, trailing edge down positive [rad]."""
         return self.model.core.trim_stabilator(self.problem, self.x)
 
+    @cached_property
+    def monitors(self) -> tuple[Monitor, ...]:
+        """What is watched of this trim, each with its values and what it says."""
+        from .trim_monitors import monitors
+
+        return monitors(self)
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What lies beyond a limit of the aircraft or of the model."""
+        return (*self.aircraft.warnings, *warnings(self.monitors))
+
+    @property
+    def failures(self) -> tuple[str, ...]:
+        """What lies beyond physics: a trim that has any is raised in a `NumericalFailure`, not returned."""
+        return failures(self.monitors)
+
     def state(self, t: float = 0.0) -> np.ndarray:
         """State y of the trimmed revolution at time `t` [s]."""
         return self.model.core.trim_state(self.problem, self.x, t)[0]
@@ -154,7 +173,8 @@ def trim(
     n_harmonics: harmonics of the blades' periodic motion. control_tolerance: change of a pitch control [rad] between trims on a
     free wake at which they rest.
 
-    Raises `InputError` for bad input and `NumericalFailure`, saying what limits, where no trim is found.
+    Raises `InputError` for bad input and `NumericalFailure`, saying what limits, where no trim is found; also where what was
+    found is beyond physics, with the trim as `partial`. What is beyond a limit stands in `.warnings`.
     """
     progress = progress or Silent()
     started = time.perf_counter()
@@ -170,7 +190,7 @@ def trim(
     progress.advance(1, "dynamic inflow")
     if isinstance(chosen, DynamicInflow):
         inflow_map, circulation = dynamic_map(simple, problem, x)
-        return Trim(simple, problem, x, inflow_map, circulation, None, time.perf_counter() - started)
+        return physical(Trim(simple, problem, x, inflow_map, circulation, None, time.perf_counter() - started))
 
     model = Model.build(aircraft, condition, trim_model(chosen))
     inflow_map, _ = dynamic_map(simple, problem, x, model.steps_per_revolution)
@@ -186,7 +206,14 @@ def trim(
             model, problem, x, wake, n_harmonics, progress, control_tolerance
         )
     seconds = time.perf_counter() - started
-    return Trim(model, problem, x, inflow_map, circulation, wake, seconds, history, dict(wake.counters))
+    return physical(Trim(model, problem, x, inflow_map, circulation, wake, seconds, history, dict(wake.counters)))
+
+
+def physical(found: Trim) -> Trim:
+    """`found`, unless a monitor says that it is no answer."""
+    if found.failures:
+        raise NumericalFailure(f"trim: {'; '.join(found.failures)}", partial=found)
+    return found
 
 
 def trim_inputs(start: Trim, t: float) -> _core.Inputs:

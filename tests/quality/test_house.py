@@ -27,13 +27,16 @@ RUST_ORDER = (
 
 # each module may import itself and the rows before its own; a new module needs its place here
 PYTHON_ORDER = (
-    {"_core", "errors", "schema"},
+    {"_core", "errors", "schema", "regime", "disk"},
     {"units", "references", "vortex", "progress", "limits"},
-    {"condition", "inflow", "results", "maneuvers", "wing"},
+    {"condition", "inflow", "results", "maneuvers", "wing", "monitors"},
     {"aircraft"},
     {"model", "modes"},
     {"integrators", "exchange"},
-    {"wake_trim", "trim_results", "recorder"},
+    {"wake_trim", "trim_results"},
+    {"trim_monitors"},
+    {"flight_monitors"},
+    {"recorder"},
     {"trim"},
     {"flight", "tunnel"},
     {"linearize", "sweep", "converge"},

@@ -34,6 +34,12 @@ class SourceRow(NamedTuple):
     note: str
 
 
+class Limits(NamedTuple):
+    """Stated limits of an aircraft: power [W], None where none is stated."""
+
+    power: float | None = None
+
+
 HINGE_MODES = {"hinged": 2, "flapping": 1, "clamped": 0}
 """Modes of a rigid blade: turns about its hinges."""
 
@@ -194,6 +200,16 @@ class Aircraft:
         time = float(self._spec.rigging.full_travel_time)
         lateral, longitudinal, collective, pedal = (each / time for each in self.stick_travel_in)
         return lateral, longitudinal, collective, pedal
+
+    @property
+    def limits(self) -> Limits:
+        """What the file states of the aircraft's limits."""
+        return Limits()
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What the data of the file are to be warned of."""
+        return ()
 
     @property
     def references(self) -> tuple[str, ...]:

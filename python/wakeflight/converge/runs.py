@@ -14,7 +14,7 @@ from ..condition import FlightCondition
 from ..flight import Flight, flown_steps, fly
 from ..inflow import DynamicInflow, RelaxationWake, trim_model
 from ..maneuvers import Maneuver
-from ..model import Model
+from ..model import Model, flight_regime
 from ..modes import blade_modes
 from ..progress import Progress, Silent
 from ..trim import Trim, trim
@@ -294,11 +294,12 @@ def build(case: Case, condition: FlightCondition) -> Model:
     """The compiled model; what the physics core refuses becomes an error of the input."""
     from ..errors import InputError
 
-    case.inflow.step(case.flying)
-    if not isinstance(case.inflow, DynamicInflow):
-        case.inflow.core_options(case.flying)
+    inflow = case.inflow.resolved(flight_regime(case.flying, condition))
+    inflow.step(case.flying)
+    if not isinstance(inflow, DynamicInflow):
+        inflow.core_options(case.flying)
     try:
-        return Model.build(case.flying, condition, case.inflow)
+        return Model.build(case.flying, condition, inflow)
     except ValueError as reason:
         raise InputError(f"{case.flying.path}: {reason}") from None
 

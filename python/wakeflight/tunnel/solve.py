@@ -17,8 +17,9 @@ from ..errors import NumericalFailure
 from ..exchange import MarchingExchange
 from ..inflow import trim_model
 from ..progress import Progress, Silent
+from ..regime import REVOLUTIONS
 from ..wake_trim import WakeInTrim
-from .model import REGIME_OPTIONS, REVOLUTIONS, StandModel
+from .model import StandModel
 
 EQUATION_TOLERANCE = 1e-6
 """Largest residual: angle [rad] of a blade harmonic or control, blade loading, inflow ratio."""
@@ -45,6 +46,9 @@ class Solution:
     revolutions: list[Revolution] = field(default_factory=list)
     averaged: int = 0
     settled: bool = True
+    unsolved: int = 0
+    """Solves of circulation and near wake behind the solution that did not end in one, among `solved_of`."""
+    solved_of: str = ""
     notes: list[str] = field(default_factory=list)
     history: list[dict[str, float]] = field(default_factory=list)
     snapshots: list[_core.TimeMarchingWake] = field(default_factory=list)
@@ -59,6 +63,12 @@ class Revolution:
     inflow: np.ndarray
     path: np.ndarray
     x: np.ndarray
+    unsolved: int
+    """Steps whose circulation and near wake did not agree."""
+    vortex_blade_distance: float
+    """Smallest distance of a tip vortex from a blade, in core radii."""
+    max_displacement: float
+    """Largest motion of a wake node in a step, over R."""
 
 
 def first_guess(model: StandModel, problem: _core.StandProblem) -> np.ndarray:
@@ -184,7 +194,17 @@ def on_relaxation(model: StandModel, start: Solution, progress: Progress | Silen
         )
     circulation = wake.circulation
     return Solution(
-        model, problem, x, inflow_map, circulation, wake=wake, settled=settled, notes=notes, history=history
+        model,
+        problem,
+        x,
+        inflow_map,
+        circulation,
+        wake=wake,
+        settled=settled,
+        unsolved=wake.not_converged,
+        solved_of=f"of {wake.n} azimuths",
+        notes=notes,
+        history=history,
     )
 
 
@@ -235,7 +255,7 @@ def on_marching(
         held = new_map if revolution == 0 else 0.5 * (held + new_map)
         run.problem, run.x, run.inflow_map = problem, x, new_map
         run.circulation = by_azimuth(turned.rows, turned.passages["circulation"], march.n)
-        run.averaged = min(n_mean, len(run.revolutions))
+        _average(run, min(n_mean, len(run.revolutions)))
         # a Weissinger blade holds a second inflow behind that of the stations
         change = (new_map - last_map)[:, : model.stations.size]
         rms = float(np.sqrt(np.mean((change**2) @ model.area_weights)))
@@ -248,7 +268,8 @@ def on_marching(
         progress.advance(1, f"inflow change {relative:.1e} of its mean, blades {change:.1e} rad")
         run.history.append({"inflow_change_per_revolution": relative, "change": change})
         if revolution >= 3 and relative < SETTLED and change < 1e-5:
-            run.settled, run.averaged = True, min(run.averaged, 2)
+            run.settled = True
+            _average(run, min(run.averaged, 2))
             break
     if not run.settled:
         run.notes.append(
@@ -256,6 +277,13 @@ def on_marching(
             f"means over the last {run.averaged} of {len(run.revolutions)} revolutions"
         )
     return run
+
+
+def _average(run: Solution, n: int) -> None:
+    """Take the means of a marched solution over its last `n` revolutions."""
+    run.averaged = n
+    run.unsolved = sum(turn.unsolved for turn in run.revolutions[-n:])
+    run.solved_of = f"solves of the last {n} revolutions"
 
 
 def _diverged(run: Solution, revolution: int, reason: Exception) -> NumericalFailure:
@@ -273,20 +301,31 @@ def march_revolution(
     snapshots: list[_core.TimeMarchingWake],
 ) -> Revolution:
     """One revolution at the motion and pitch of `x`; `snapshots` then holds the wake of each of its steps."""
-    rows, inflow, path = [], [], []
+    rows, inflow, path, watched = [], [], [], []
+    unsolved = march.circulation_not_converged
     snapshots.clear()
     for _ in range(march.n):
         row, lam, _ = march.frozen_step(problem, x)
         rows.append(row)
         inflow.append(lam)
         path.append(march.position())
+        watched.append(march.monitors)
         snapshots.append(march.core.snapshot())
     rows, inflow = np.array(rows), np.array(inflow)
     psi = 2 * np.pi * rows.ravel() / march.n
     passages = model.core.passages(problem, x, psi, inflow.reshape(psi.size, -1))
     shape = (march.n, model.n_blades, -1)
     passages = {name: values.reshape(shape) for name, values in passages.items()}
-    return Revolution(rows, passages, inflow, np.array(path), x)
+    return Revolution(
+        rows,
+        passages,
+        inflow,
+        np.array(path),
+        x,
+        unsolved=march.circulation_not_converged - unsolved,
+        vortex_blade_distance=min(each["vortex_blade_distance"] for each in watched),
+        max_displacement=max(each["max_displacement"] for each in watched),
+    )
 
 
 def by_azimuth(rows: np.ndarray, values: np.ndarray, n: int) -> np.ndarray:
@@ -308,10 +347,8 @@ def solution(
         return start
     if not model.is_marching:
         return on_relaxation(model, start, progress)
-    relaxation, regime = trim_model(model.inflow), model.condition.regime(model.tip_speed)
-    if regime != "forward":
-        relaxation = replace(relaxation, relaxation=REGIME_OPTIONS[regime]["relaxation"])
-    tumbling = regime != "forward" and model.inflow.trailers == "full-span"
+    relaxation = trim_model(model.inflow)
+    tumbling = model.condition.regime(model.tip_speed) != "forward" and model.inflow.trailers == "full-span"
     if tumbling:
         relaxation = replace(relaxation, **START)
     relaxed = StandModel.build(model.aircraft, model.condition, relaxation, model.n_harmonics, model.blade_model)
