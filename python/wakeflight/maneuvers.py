@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import itertools
 import math
-import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from importlib import resources
@@ -21,7 +20,8 @@ from typing import Annotated, Any
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
-from .errors import InputError
+from .errors import InputError, one_line
+from .text import read_toml
 from .units import quantity
 
 STICKS = ("lateral", "longitudinal", "collective", "pedal")
@@ -267,12 +267,9 @@ def _shipped(name: str) -> Maneuver:
 
 def _read(path: Path, shipped: bool) -> Maneuver:
     try:
-        with path.open("rb") as stream:
-            data = tomllib.load(stream)
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as reason:
-        raise InputError.of("maneuver", str(path), f"not readable as TOML: {reason}") from reason
-    except OSError as reason:
-        raise InputError.of("maneuver", str(path), f"cannot be read: {reason.strerror}") from reason
+        data = read_toml(path)
+    except ValueError as reason:
+        raise InputError(one_line(f"{path}: {reason}")) from reason
     try:
         file = _File.model_validate(data)
     except ValidationError as reason:

@@ -222,7 +222,6 @@ def test_a_wrong_number_gets_one_line_naming_file_key_and_what_is_allowed(tmp_pa
     ("file", "old", "new", "named"),
     [
         ("sc1095_cl.csv", "\n-180,0,0,0,0,0,0,0,0,0,0,0", "", "-180 to 180 deg"),
-        ("sc1095_cl.csv", "M0.7,M0.8,M0.9,M1.0", "M0.65,M0.7,M0.75,M0.8", "to 0.9"),
         ("sc1095_cl.csv", "\n-176,", "\n-179,", "alpha"),
         ("sc1095_cd.csv", "\n180,0.02", "\n180,abc", "M0.0"),
         ("blade_geometry.csv", "\n1,-10.9,1.73", "\n0.99,-10.9,1.73", "tip"),

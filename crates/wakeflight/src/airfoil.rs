@@ -140,8 +140,7 @@ impl TryFrom<AirfoilTables> for Airfoil {
 }
 
 impl AirfoilTables {
-    /// Whether the tables are finite, ascending, and cover -pi..pi and Mach 0 (first column at most 0.3, held below)
-    /// to at least 0.9.
+    /// Whether the tables are finite, ascending, and cover -pi..pi; Mach numbers, one or more, are held beyond their ends.
     pub fn validate(&self) -> Result<(), AirfoilError> {
         for (table, grid) in [("cl", &self.cl), ("cd", &self.cd), ("cm", &self.cm)] {
             validate_grid(table, grid)?;
@@ -153,13 +152,10 @@ impl AirfoilTables {
     }
 }
 
-/// A table may start here: decks often leave out the columns below, where compressibility does nothing.
-const INCOMPRESSIBLE: f64 = 0.3;
-
 fn validate_grid(table: &'static str, grid: &Grid) -> Result<(), AirfoilError> {
     let (rows, columns) = (grid.x.len(), grid.y.len());
     let fits = grid.values.len() == rows && grid.values.iter().all(|row| row.len() == columns);
-    if !fits || rows < 2 || columns < 2 {
+    if !fits || rows < 2 || columns < 1 {
         return Err(AirfoilError::Shape { table, rows, columns });
     }
     let mut numbers = grid.x.iter().chain(&grid.y).chain(grid.values.iter().flatten());
@@ -179,8 +175,8 @@ fn validate_grid(table: &'static str, grid: &Grid) -> Result<(), AirfoilError> {
     if grid.x[0] > -PI + rounding || grid.x[rows - 1] < PI - rounding {
         return range("angle of attack", &grid.x, "-pi to pi");
     }
-    if grid.y[0] > INCOMPRESSIBLE || grid.y[columns - 1] < 0.9 {
-        return range("Mach number", &grid.y, "0 (0.3 at most, held below) to at least 0.9");
+    if grid.y[0] < 0.0 {
+        return range("Mach number", &grid.y, "0 or more");
     }
     Ok(())
 }
@@ -198,7 +194,11 @@ impl Airfoil {
         tables.validate()?;
         let AirfoilTables { cl, cd, cm, cd_increment } = tables;
         let alpha = union([&cl.x, &cd.x, &cm.x]);
-        let mach = union([&cl.y, &cd.y, &cm.y]);
+        let mut mach = union([&cl.y, &cd.y, &cm.y]);
+        if mach.len() == 1 {
+            // one column holds at every Mach number
+            mach.push(mach[0] + 1.0);
+        }
         let mut nodes = Vec::with_capacity(alpha.len() * mach.len());
         for &a in &alpha {
             for &m in &mach {
@@ -291,6 +291,22 @@ mod tests {
     }
 
     #[test]
+    fn mach_numbers_are_held_beyond_the_columns_a_table_has() {
+        let mut t = tables();
+        for table in [&mut t.cl, &mut t.cd, &mut t.cm] {
+            *table = grid(&[-180., 0., 10., 180.], &[0.2], |a, m| (2.0 * a).sin() + m);
+        }
+        let airfoil = Airfoil::new(&t).unwrap();
+        for mach in [0.0, 0.2, 0.7, 1.3] {
+            assert!((airfoil.coefficients(0.1, mach).0 - t.cl.at(0.1, 0.2)).abs() < 1e-14);
+        }
+        t.cl = grid(&[-180., 0., 10., 180.], &[0.3, 0.8], |a, m| (2.0 * a).sin() + m);
+        let airfoil = Airfoil::new(&t).unwrap();
+        assert_eq!(airfoil.coefficients(0.1, 0.95).0, airfoil.coefficients(0.1, 0.8).0);
+        assert_eq!(airfoil.coefficients(0.1, 0.0).0, airfoil.coefficients(0.1, 0.3).0);
+    }
+
+    #[test]
     fn whole_turns_change_nothing() {
         let airfoil = Airfoil::new(&tables()).unwrap();
         for turns in [-3.0, -1.0, 1.0, 2.0] {
@@ -326,7 +342,7 @@ mod tests {
             Err(AirfoilError::Range { table: "cl", axis: "angle of attack", .. })
         ));
         let mut t = tables();
-        t.cd.y[1] = 0.85;
+        t.cd.y[0] = -0.1;
         assert!(matches!(
             Airfoil::new(&t),
             Err(AirfoilError::Range { table: "cd", axis: "Mach number", .. })

@@ -6,6 +6,9 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
+from ..text import read_text
+from .tables import HIGHEST_MACH
+
 Grid = dict[str, list]
 """{x: alpha [rad], y: Mach, values}."""
 
@@ -13,25 +16,31 @@ LINEAR_LIMIT = math.radians(30.0)
 """Angle of attack [rad] up to which an analytic polar holds; beyond, a flat plate takes over within 10 deg."""
 
 
-def read_c81(path: Path) -> dict[str, Grid]:
-    """Lift, drag and moment tables of a C81 deck: {cl, cd, cm}.
+def read_c81(path: Path) -> tuple[dict[str, Grid], list[str]]:
+    """Lift, drag and moment tables of a C81 deck {cl, cd, cm}, and what is to be warned of.
 
     First line: name (30 columns), then numbers of Mach columns and angles of cl, cd, cm, two digits each. Fields of
-    seven columns, nine values a line, angles in degrees. ValueError says what cannot be read.
+    seven columns, nine values a line, angles in degrees. Lines before that one are passed over and told; a deck that counts
+    no moments has none. ValueError says what cannot be read.
     """
     try:
-        lines = path.read_text(encoding="utf-8").splitlines()
-    except (OSError, UnicodeDecodeError) as reason:
-        raise ValueError(f"names the file {path}, which cannot be read") from reason
-    try:
-        counts = [int(lines[0][30 + 2 * i : 32 + 2 * i]) for i in range(6)]
-    except (ValueError, IndexError) as reason:
-        raise ValueError(
-            f"names the file {path}, whose first line has no six two-digit counts from column 31 on"
-        ) from reason
-    reader = _Fields(path, lines)
-    grids = {}
+        lines = read_text(path).splitlines()
+    except ValueError as reason:
+        raise ValueError(f"names the file {path}, which {reason}") from reason
+    header, counts = _header(path, lines)
+    notes = []
+    if any(line.strip() for line in lines[:header]):
+        notes.append(f"{path}: {header} lines stand before the C81 header in line {header + 1}; passed over")
+    reader = _Fields(path, lines, header + 1)
+    grids: dict[str, Grid] = {}
     for name, n_mach, n_alpha in zip(("cl", "cd", "cm"), counts[0::2], counts[1::2], strict=True):
+        if (n_mach == 0) != (n_alpha == 0) or (n_mach == 0 and name != "cm"):
+            where = f"the file {path}, line {header + 1}"
+            raise ValueError(f"names {where}, which counts {n_mach} Mach numbers and {n_alpha} angles of {name}")
+        if n_mach == 0:
+            notes.append(f"{path}: the deck has no cm; taken as 0, sections carry no pitching moment")
+            grids[name] = {**grids["cl"], "values": [[0.0] * len(row) for row in grids["cl"]["values"]]}
+            continue
         mach = reader.row(n_mach, lead=False)
         rows = [reader.row(n_mach, lead=True) for _ in range(n_alpha)]
         grids[name] = {
@@ -39,14 +48,26 @@ def read_c81(path: Path) -> dict[str, Grid]:
             "y": mach,
             "values": [row[1:] for row in rows],
         }
-    return grids
+    after = next((i for i in range(reader.at, len(lines)) if lines[i].strip()), None)
+    if after is not None:
+        notes.append(f"{path}: text after the tables, from line {after + 1} on; not used")
+    return grids, notes
+
+
+def _header(path: Path, lines: list[str]) -> tuple[int, list[int]]:
+    """Index of the first line of a deck, and its six counts; ValueError where no line has them."""
+    for at, line in enumerate(lines):
+        fields = [line[30 + 2 * i : 32 + 2 * i] for i in range(6)]
+        if all(field.strip().isdecimal() for field in fields):
+            return at, [int(field) for field in fields]
+    raise ValueError(f"names the file {path}, in which no line has six two-digit counts from column 31 on")
 
 
 class _Fields:
     """Numbers of a deck, line by line in fields of seven columns."""
 
-    def __init__(self, path: Path, lines: list[str]) -> None:
-        self.path, self.lines, self.at = path, lines, 1
+    def __init__(self, path: Path, lines: list[str], at: int) -> None:
+        self.path, self.lines, self.at = path, lines, at
 
     def row(self, n: int, lead: bool) -> list[float]:
         """The next `n` numbers over as many lines as they need; `lead`: an angle stands before them."""
@@ -58,8 +79,12 @@ class _Fields:
             line = self.lines[self.at].ljust(70)
             fields = [line[7 * i : 7 * i + 7].strip() for i in range(10)]
             wanted = fields if first and lead else fields[1:]
+            needed = n + lead - len(values)
+            if any(wanted[needed:]):
+                counted = f"line {self.at + 1} holds more numbers than the {n} that the first line of the deck counts"
+                raise ValueError(f"names the file {self.path}, whose {counted}")
             try:
-                values += [float(field) for field in wanted[: n + lead - len(values)]]
+                values += [float(field) for field in wanted[:needed]]
             except ValueError as reason:
                 message = f"names the file {self.path}, whose line {self.at + 1} '{line.strip()[:40]}' is not numbers"
                 raise ValueError(message) from reason
@@ -76,14 +101,14 @@ def _to_pi(alpha: float) -> float:
 
 
 def checked(name: str, grid: Grid) -> Grid:
-    """`grid` if its axes ascend and cover +-180 deg and Mach 0.3 or less to 0.9 or more; ValueError otherwise."""
+    """`grid` if its axes ascend and cover +-180 deg and Mach numbers from 0 to 2; ValueError otherwise."""
     for axis, nodes in (("angle of attack", grid["x"]), ("Mach", grid["y"])):
         if any(after <= before for before, after in zip(nodes, nodes[1:], strict=False)):
             raise ValueError(f"{name}: {axis} must ascend strictly")
     if grid["x"][0] > -math.pi + 1e-9 or grid["x"][-1] < math.pi - 1e-9:
         raise ValueError(f"{name}: angles must cover -180 to 180 deg")
-    if grid["y"][0] > 0.3 or grid["y"][-1] < 0.9 - 1e-12:
-        raise ValueError(f"{name}: Mach numbers must begin at 0.3 or less and reach 0.9 or more")
+    if grid["y"][0] < 0.0 or grid["y"][-1] > HIGHEST_MACH:
+        raise ValueError(f"{name}: Mach numbers must lie between 0 and {HIGHEST_MACH:g}")
     return grid
 
 

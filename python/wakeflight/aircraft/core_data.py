@@ -15,6 +15,9 @@ from .tables import TableFile
 
 _KNOT = 1852.0 / 3600.0
 
+STRUCTURE_COLUMNS = ("r_in", "r_out", "mass", "EI_flap", "EI_lag", "GJ", "I_theta_cg", "x_cg", "x_cg_straight")
+"""Columns of a table of blade structure."""
+
 
 def fixed_parts(spec: AircraftFile) -> dict[str, Any]:
     """Everything that does not depend on the loading, tables read and checked for coverage."""
@@ -89,6 +92,7 @@ def blade_data(rotor: Any, structure: dict[str, list[float]]) -> dict[str, Any]:
     """Blade of a rotor with its structure, tables checked for coverage."""
     blade, radius = rotor.blade, float(rotor.radius)
     geometry = blade.geometry
+    geometry.refuse_unused(("r", "twist", "chord"), zero_is_nothing=True)
     stations = geometry.column("r", "m", radius)
     tables.ascending(geometry, "r", stations)
     root = float(blade.root_station)
@@ -118,6 +122,7 @@ def blade_data(rotor: Any, structure: dict[str, list[float]]) -> dict[str, Any]:
 def structure_data(rotor: Any) -> dict[str, list[float]]:
     """Segments from the root to the tip, clipped; at a hinge up to 1 % of the radius may be massless."""
     table, radius = rotor.blade.structure, float(rotor.radius)
+    table.refuse_unused(STRUCTURE_COLUMNS, zero_is_nothing=True)
     root = float(rotor.blade.root_station)
     r_in, r_out = table.column("r_in", "m", None), table.column("r_out", "m", None)
     rounding = 1e-4 * radius
@@ -175,6 +180,7 @@ def lag_damper_data(rotor: Any) -> dict[str, Any] | None:
     damper = rotor.lag_damper
     if damper is None:
         return None
+    damper.force.refuse_unused(("rate", "force"))
     force = tables.curve(damper.force, "rate", "m/s", "force", "N")
     if force["x"][0] != 0.0 or force["y"][0] != 0.0:
         raise damper.force.error(
@@ -195,6 +201,7 @@ def _fuselage(spec: AircraftFile) -> dict[str, Any] | None:
     table, right_angle = spec.fuselage.aerodynamics, 0.5 * math.pi
     names = {"drag": "Dq", "lift": "Lq", "side": "Yq", "pitching": "Mq", "rolling": "Rq", "yawing": "Nq"}
     moments = ("pitching", "rolling", "yawing")
+    table.refuse_unused(("alpha", "beta", *names.values()))
     loads: dict[str, Any] = {}
     for name, base in names.items():
         loads[name] = tables.grid(table, "alpha", "beta", base, "m3" if name in moments else "m2")
@@ -205,6 +212,7 @@ def _fuselage(spec: AircraftFile) -> dict[str, Any] | None:
 
 def _surface(surface: Any, angle: str) -> dict[str, Any]:
     table, right_angle = surface.aerodynamics, 0.5 * math.pi
+    table.refuse_unused((angle, "cl", "cd"))
     curves = {name: tables.curve(table, angle, "rad", name, "1") for name in ("cl", "cd")}
     tables.covering(table, angle, curves["cl"]["x"], -right_angle, right_angle, "-90 to 90 deg")
     # a scheduled surface has no incidence of its own: the schedule replaces it
@@ -257,6 +265,11 @@ def _interference(spec: AircraftFile) -> dict[str, Any] | None:
         return None
     if not isinstance(wash, InterferenceTables):
         return {"kind": "factors", "fuselage": float(wash.fuselage), "stabilator": float(wash.stabilator)}
+
+    wash.rotor_wash.refuse_unused(("chi", "a1f", "ekx_fus", "ekz_fus", "ekx_tail", "ekz_tail"))
+    wash.fuselage_wash.refuse_unused(("angle", "eps_of_alpha", "sigma_of_psi"))
+    wash.q_ratio_stabilator.refuse_unused(("alpha", "q_ratio"))
+    wash.q_ratio_fin.refuse_unused(("psi", "q_ratio"))
 
     def factor(base: str) -> dict[str, list]:
         return tables.grid(wash.rotor_wash, "chi", "a1f", base, "1")

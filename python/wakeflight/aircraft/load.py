@@ -3,15 +3,15 @@
 
 from __future__ import annotations
 
-import tomllib
 from importlib import resources
 from pathlib import Path
 from typing import Any, get_args
 
 from pydantic import BaseModel, ValidationError
 
-from ..errors import InputError
+from ..errors import InputError, one_line
 from ..references import known_keys
+from ..text import read_toml
 from .model import Aircraft
 from .schema import AircraftFile
 
@@ -44,22 +44,22 @@ def find(name_or_path: str | Path) -> Path:
 def parsed(path: Path) -> dict[str, Any]:
     """Content of a TOML file; InputError where it cannot be read."""
     try:
-        with path.open("rb") as stream:
-            return tomllib.load(stream)
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as reason:
-        raise InputError(f"{path}: not readable as TOML: {reason}") from reason
-    except OSError as reason:
-        raise InputError.of("aircraft", str(path), f"cannot be read: {reason.strerror}") from reason
+        return read_toml(path)
+    except ValueError as reason:
+        raise InputError(one_line(f"{path}: {reason}")) from reason
 
 
-def validated(path: Path, data: dict[str, Any], schema: type[BaseModel]) -> Any:
-    """`data` of the file `path` as `schema`, its citations known; InputError names the first thing wrong."""
+def validated(path: Path, data: dict[str, Any], schema: type[BaseModel], raw: dict[str, Any] | None = None) -> Any:
+    """`data` of the file `path` as `schema`, its citations known; InputError names the first thing wrong.
+
+    raw: what the file itself holds, where `data` was written out from it: errors name the keys of the file.
+    """
     sources = data.get("sources")
     context = {"file": path, "directory": path.parent, "sources": set(sources) if isinstance(sources, dict) else set()}
     try:
         spec = schema.model_validate(data, context=context)
     except ValidationError as reason:
-        raise _one_error(path, reason, data, schema) from None
+        raise _one_error(path, reason, data, schema, data if raw is None else raw) from None
     for key, source in spec.sources.items():
         for reference in source.references:
             if reference not in known_keys():
@@ -68,7 +68,9 @@ def validated(path: Path, data: dict[str, Any], schema: type[BaseModel]) -> Any:
     return spec
 
 
-def _one_error(path: Path, reason: ValidationError, data: dict, schema: type[BaseModel]) -> InputError:
+def _one_error(
+    path: Path, reason: ValidationError, data: dict, schema: type[BaseModel], raw: dict[str, Any]
+) -> InputError:
     """The first error of a validation in one line; a missing or unknown key goes before its consequences."""
     order = {"extra_forbidden": 0, "missing": 1}
     error = min(reason.errors(), key=lambda each: order.get(each["type"], 2))
@@ -77,6 +79,11 @@ def _one_error(path: Path, reason: ValidationError, data: dict, schema: type[Bas
     location = [
         part for i, part in enumerate(location) if not (location[:i] == ["interference"] and i == 1 and _tag(data))
     ]
+    written = _at(raw, location[:-1])
+    if location and not isinstance(written, dict):
+        # a number or a list where the file should have a group: the keys below are not the file's
+        keys = ", ".join(_allowed(schema, location[:-1], data))
+        return InputError.of(".".join(location[:-1]), written, f"must be a group with keys of: {keys}", file=path)
     key = ".".join(location) or "file"
     if error["type"] == "extra_forbidden":
         return InputError.of(
@@ -86,11 +93,25 @@ def _one_error(path: Path, reason: ValidationError, data: dict, schema: type[Bas
         return InputError.of(key, "missing", "must be given", file=path)
     message = error["msg"].removeprefix("Value error, ")
     value = error["input"]
-    if isinstance(value, dict) and "value" in value:
+    if isinstance(value, dict) and isinstance(value.get("table"), str):
+        value = value["table"]
+    elif isinstance(value, dict) and "value" in value:
         value = f"{value['value']} {value.get('unit', '')}".strip()
     elif isinstance(value, BaseModel) or (isinstance(value, dict) and not location):
         return InputError(f"{path}: {key}: {message}")
     return InputError.of(key, value, message, file=path)
+
+
+def _at(raw: Any, location: list[str]) -> Any:
+    """What a file holds at `location`; an empty group where it holds nothing."""
+    for part in location:
+        if isinstance(raw, list) and part.isdigit() and int(part) < len(raw):
+            raw = raw[int(part)]
+        elif isinstance(raw, dict):
+            raw = raw.get(part, {})
+        else:
+            return {}
+    return raw
 
 
 def _tag(data: dict) -> bool:

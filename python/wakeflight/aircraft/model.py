@@ -13,6 +13,7 @@ from pydantic import BaseModel, ValidationError
 
 from ..errors import InputError
 from ..units import STANDARD_GRAVITY, quantity, shown
+from .checks import check_aircraft
 from .core_data import assembled, fixed_parts
 from .mass import blade_mass
 from .number import Number, Numbers, Provenance
@@ -57,7 +58,7 @@ class Settings(NamedTuple):
 class Aircraft:
     """An aircraft with one loading; make it with `load_aircraft`."""
 
-    __slots__ = ("_discretisation", "_loading", "_loading_name", "_parts", "_path", "_spec")
+    __slots__ = ("_discretisation", "_loading", "_loading_name", "_parts", "_path", "_spec", "_warnings")
 
     _spec: AircraftFile
     _path: Path
@@ -65,9 +66,10 @@ class Aircraft:
     _loading_name: str | None
     _parts: dict[str, Any]
     _discretisation: Settings
+    _warnings: tuple[str, ...]
 
     def __init__(self, spec: AircraftFile, path: Path, loading: str | None = None) -> None:
-        """Read and check every table; choose the loading.
+        """Read every table, check all numbers for physics; choose the loading.
 
         spec: the validated file; path: where it lies; loading: name in `[loadings]`, None for `[loading]`.
         """
@@ -78,12 +80,14 @@ class Aircraft:
         if loading is not None:
             given = {key: value for key, value in spec.loadings[loading] if value is not None}
             chosen = spec.loading.model_copy(update=given)
+        parts = fixed_parts(spec)
         for name, value in (
             ("_spec", spec),
             ("_path", path),
             ("_loading_name", loading),
             ("_loading", chosen),
-            ("_parts", fixed_parts(spec)),
+            ("_parts", parts),
+            ("_warnings", tuple(f"{path.name}: {text}" for text in check_aircraft(spec, parts, path))),
             ("_discretisation", _settings(spec, path)),
         ):
             object.__setattr__(self, name, value)
@@ -204,12 +208,13 @@ class Aircraft:
     @property
     def limits(self) -> Limits:
         """What the file states of the aircraft's limits."""
-        return Limits()
+        stated = self._spec.limits
+        return Limits() if stated is None else Limits(float(stated.power))
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """What the data of the file are to be warned of."""
-        return ()
+        """What is doubtful in the file or not used of it, a line each."""
+        return self._warnings
 
     @property
     def references(self) -> tuple[str, ...]:

@@ -89,9 +89,13 @@ def provenance_of(entry: Any, info: ValidationInfo, keys: set[str], allowed: str
 def _real(value: Any) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float):
         raise ValueError(f"has the value {value!r}, which is not a number")
-    if not math.isfinite(value):
+    try:
+        number = float(value)
+    except OverflowError:
+        number = math.inf
+    if not math.isfinite(number):
         raise ValueError("must be finite")
-    return float(value)
+    return number
 
 
 def _reader(si_unit: str, low: float, high: float, above: float | None) -> Callable[[Any, str], float]:

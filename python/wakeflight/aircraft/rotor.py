@@ -13,11 +13,13 @@ from typing import Any
 from ..errors import InputError
 from ..units import quantity
 from . import tables
-from .core_data import blade_data, structure_data
+from .core_data import STRUCTURE_COLUMNS, blade_data, structure_data
 from .core_data import lag_damper_data as damper
 from .load import SHIPPED, find, load_aircraft, parsed, validated
 from .model import HINGE_MODES, Aircraft, Settings, checked_discretisation
+from .rotor_checks import check_rotor, unused_on_a_stand
 from .rotor_file import UNSTATED, RotorFile, RotorGroup, written_out
+from .sections import check_sections
 
 FINEST_DEFAULT_STEPS = 36
 """Fewest steps in a revolution where a file names no azimuth step (10 deg)."""
@@ -25,7 +27,7 @@ FINEST_DEFAULT_STEPS = 36
 
 @dataclass(frozen=True)
 class Rotor:
-    """A rotor, SI and radians; make it with `load_rotor`."""
+    """A rotor, SI and radians; make it with `load_rotor`. `warnings`: what is doubtful in its file or not used of it."""
 
     name: str
     path: Path
@@ -33,6 +35,7 @@ class Rotor:
     discretisation: Settings
     references: tuple[str, ...] = ()
     fixed_reference_pitch: bool = False
+    warnings: tuple[str, ...] = ()
 
     @property
     def n_blades(self) -> int:
@@ -118,16 +121,18 @@ def _of_aircraft(aircraft: Aircraft) -> Rotor:
     data |= {"position": [0.0, 0.0, 0.0], "shaft_tilt_forward": 0.0, "shaft_tilt_lateral": 0.0}
     data["blade"].setdefault("rigid", False)
     settings = aircraft.discretisation
-    return Rotor(aircraft.name, aircraft.path, data, settings, aircraft.references, fixed_reference_pitch=True)
+    references, warnings = aircraft.references, aircraft.warnings
+    return Rotor(aircraft.name, aircraft.path, data, settings, references, fixed_reference_pitch=True, warnings=warnings)
 
 
 def _of_file(path: Path) -> Rotor:
-    data = parsed(path)
+    raw = parsed(path)
+    data = dict(raw)
     if isinstance(data.get("rotor"), dict):
         data["rotor"] = written_out(data["rotor"])
     if isinstance(data.get("sources", {}), dict):
         data["sources"] = {**data.get("sources", {}), "unstated": UNSTATED.model_dump()}
-    spec: RotorFile = validated(path, data, RotorFile)
+    spec: RotorFile = validated(path, data, RotorFile, raw)
     group = spec.rotor
     core = {
         "n_blades": int(group.n_blades),
@@ -142,7 +147,33 @@ def _of_file(path: Path) -> Rotor:
     }
     keys = {key for source in spec.sources.values() for key in source.references}
     fixed = spec.discretisation.reference_pitch is not None
-    return Rotor(spec.name, path, core, _settings(spec, path), tuple(sorted(keys)), fixed)
+    warnings = tuple(f"{path.name}: {text}" for text in _checked(spec, core, path))
+    return Rotor(spec.name, path, core, _settings(spec, path), tuple(sorted(keys)), fixed, warnings)
+
+
+def _checked(spec: RotorFile, core: dict[str, Any], path: Path) -> list[str]:
+    """Warnings about a rotor file; InputError where the rotor is impossible."""
+    group = spec.rotor
+
+    def refuse(key: str, value: object, allowed: str) -> InputError:
+        return InputError.of(f"rotor.{key}", value, allowed, file=path)
+
+    def in_sections(name: str, value: object, allowed: str) -> InputError:
+        table = getattr(group.airfoil, name)
+        if isinstance(table, tables.TableFile):
+            return table.error(f"rotor.airfoil.{name}", value, allowed)
+        file = path if group.airfoil.c81 is None else group.airfoil.c81.path
+        return InputError.of(f"rotor.airfoil.{'polar' if group.airfoil.polar else 'c81'} {name}", value, allowed, file=file)
+
+    sections = {name: core["airfoil"][name] for name in ("cl", "cd", "cm")}
+    notes = [] if group.airfoil.c81 is None else list(group.airfoil.c81.notes)
+    increment = core["airfoil"]["cd_increment"]
+    notes += check_sections(sections, increment, in_sections, polar=group.airfoil.polar is not None)
+    return [
+        *(f"rotor.airfoil: {text}" for text in notes),
+        *check_rotor(group, core["blade"], core["lag_damper"], sections, refuse),
+        *unused_on_a_stand(group, spec.condition),
+    ]
 
 
 def _grids(group: RotorGroup, path: Path) -> dict[str, Any]:
@@ -185,6 +216,7 @@ def _rigid_structure(group: RotorGroup) -> dict[str, list[float]]:
     root = float(blade.root_station)
     if blade.structure is not None:
         table = blade.structure
+        table.refuse_unused(STRUCTURE_COLUMNS, zero_is_nothing=True)
         r_in, r_out = table.column("r_in", "m", radius), table.column("r_out", "m", radius)
         tables.ascending(table, "r_in", r_in)
         mass = table.column("mass", "kg/m")

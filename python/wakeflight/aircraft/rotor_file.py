@@ -29,6 +29,7 @@ from .schema import (
     Position,
     Rate,
     Source,
+    one_section,
 )
 from .tables import Table
 
@@ -42,6 +43,7 @@ class Deck(Group):
     path: Path
     grids: dict[str, Grid]
     provenance: Provenance
+    notes: tuple[str, ...] = ()
 
 
 def _deck(entry: Any, info: ValidationInfo) -> Deck:
@@ -51,8 +53,10 @@ def _deck(entry: Any, info: ValidationInfo) -> Deck:
     if not isinstance(name, str) or not name:
         raise ValueError(f"must be {allowed}")
     path = Path((info.context or {}).get("directory", Path())) / name
-    grids = {key: checked(key, grid) for key, grid in read_c81(path).items()}
-    return Deck(path=path, grids=grids, provenance=provenance)
+    grids, notes = read_c81(path)
+    for key, grid in grids.items():
+        checked(key, grid)
+    return Deck(path=path, grids=grids, provenance=provenance, notes=tuple(notes))
 
 
 class Polar(Group):
@@ -151,7 +155,7 @@ class RotorGroup(Group):
     radius: Length
     omega: Rate
     blade: RotorBlade
-    airfoil: RotorAirfoil
+    airfoil: Annotated[RotorAirfoil, BeforeValidator(one_section)]
     tip_loss_factor: scalar("1", low=0.8, high=1.0) | None = None
     lag_damper: LagDamper | None = None
     hub: Position | None = None
@@ -210,6 +214,6 @@ def written_out(entry: Any, key: str = "") -> Any:
             return {"value": float(number), "unit": unit.strip() or "1", "source": "unstated", "confidence": "C"}
         except ValueError:
             return entry
-    if isinstance(entry, list):
+    if isinstance(entry, list) and not any(isinstance(each, dict) for each in entry):
         return {"value": entry, "source": "unstated", "confidence": "C"}
     return entry

@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_validator
 
 from .number import Noted, Weight, scalar, vector
 from .tables import Table
@@ -109,6 +109,13 @@ class Airfoil(Group):
     cd_increment: scalar("1", low=-0.1, high=0.1)
 
 
+def one_section(entry: object) -> object:
+    """Refuse a list of sections: the model takes one along the whole span."""
+    if isinstance(entry, list):
+        raise ValueError(f"lists {len(entry)} sections; one section along the span is all there is: write one [rotor.airfoil]")
+    return entry
+
+
 class LagDamper(Group):
     """Hydraulic lag damper: geometry, force against rate, hinge spring where `use_spring` is true."""
 
@@ -142,7 +149,7 @@ class Rotor(Group):
     tip_loss_factor: scalar("1", low=0.8, high=1.0)
     swashplate_phase: Angle
     blade: Blade
-    airfoil: Airfoil
+    airfoil: Annotated[Airfoil, BeforeValidator(one_section)]
     lag_damper: LagDamper | None = None
 
 
@@ -254,6 +261,12 @@ class Drive(Group):
     accessory_power: scalar("W", low=0.0, high=1e7)
 
 
+class Limits(Group):
+    """What the aircraft may be flown to: told where a run goes beyond it, not enforced."""
+
+    power: scalar("W", above=0.0, high=1e8)
+
+
 class Discretisation(Group):
     """How finely to compute: the only group with defaults."""
 
@@ -284,6 +297,7 @@ class AircraftFile(Group):
     fuselage: Fuselage | None = None
     interference: Annotated[InterferenceTables | InterferenceFactors, Field(discriminator="kind")] | None = None
     drive: Drive
+    limits: Limits | None = None
     discretisation: Discretisation = Discretisation()
     comparison: dict[str, Noted] = {}
 

@@ -12,6 +12,7 @@ from typing import Annotated, Any
 from pydantic import BeforeValidator, ValidationInfo
 
 from ..errors import InputError
+from ..text import read_text
 from ..units import convert
 from .number import Provenance, provenance_of
 
@@ -35,15 +36,30 @@ SUFFIXES = {
 }
 """Unit of each column suffix; `_R` is a fraction of the radius, no suffix a number without dimension."""
 
+LARGEST = {
+    "1": (1e3, "coefficients and ratios are of order one"),
+    "rad": (2.0 * math.pi, "a turn, the whole range of any angle"),
+    "m": (100.0, "the largest rotor flown has a radius of 17.5 m"),
+    "m2": (1e4, "flat-plate area of a body 100 m long"),
+    "m3": (1e5, "flat-plate area times length of a body 100 m long"),
+    "kg/m": (1e5, "solid steel a metre square has 8e3 kg/m"),
+    "kg m": (1e5, "solid steel a metre square has 1.3e3 kg m"),
+    "N m2": (1e12, "solid steel a metre square has 1.8e10 N m2"),
+    "m/s": (100.0, "a damper's piston does not reach a third of the speed of sound"),
+    "N": (1e7, "weight of a thousand tonnes"),
+}
+"""Largest magnitude of a table's cell by its dimension, and why: beyond it is a slip of the file, not a helicopter."""
+
 
 @dataclass(frozen=True)
 class TableFile:
-    """A CSV file, read: columns by header, comment lines, where it comes from."""
+    """A CSV file, read: columns by header, comment lines, where it comes from; `texts`: columns that hold text."""
 
     path: Path
     columns: dict[str, tuple[float, ...]]
     comment: str
     provenance: Provenance
+    texts: tuple[tuple[str, tuple[str, ...]], ...] = ()
 
     def error(self, column: str, value: object, allowed: str) -> InputError:
         """Error about one column of this file."""
@@ -52,7 +68,7 @@ class TableFile:
     def column(self, base: str, si_unit: str, radius: float | None = None) -> list[float]:
         """Column `base` in `si_unit`; its header has a suffix of that dimension (`_R`: times `radius`)."""
         if si_unit == "1" and base in self.columns:
-            return list(self.columns[base])
+            return self._bounded(base, list(self.columns[base]), si_unit)
         found: list[tuple[str, list[float]]] = []
         for header, values in self.columns.items():
             suffix = header.removeprefix(base + "_") if header.startswith(base + "_") else None
@@ -67,7 +83,38 @@ class TableFile:
             allowed = self._suffixes(si_unit, radius)
             given = ", ".join(header for header, _ in found) or "missing"
             raise self.error(base, given, f"one column is needed, {base} with a suffix of {allowed}")
-        return found[0][1]
+        return self._bounded(*found[0], si_unit)
+
+    def _bounded(self, header: str, values: list[float], si_unit: str) -> list[float]:
+        """`values` if none is beyond what a helicopter can have of its dimension."""
+        largest, why = LARGEST[si_unit]
+        for value in values:
+            if not abs(value) <= largest:
+                raise self.error(header, f"{value:g} {si_unit}", f"must lie within +-{largest:g} {si_unit}: {why}")
+        return values
+
+    def refuse_unused(self, bases: tuple[str, ...], zero_is_nothing: bool = False) -> None:
+        """Refuse a column that would be dropped: one that is none of `bases`, no note, and says something.
+
+        A note is a column whose name begins with `note`, text under `source` or `conf...`, or text that is the same in every
+        line. zero_is_nothing: an unknown column of zeros (sweep of a straight blade) says nothing and is let through.
+        """
+        allowed = f"unknown column, it would not be used; allowed: {', '.join(bases)}, note..."
+        for header, values in self.columns.items():
+            if header.startswith("note") or any(_is_of(header, base) for base in bases):
+                continue
+            if not zero_is_nothing:
+                raise self.error(header, f"{values[0]:g} ...", allowed)
+            said = next((value for value in values if value != 0.0), None)
+            if said is not None:
+                raise self.error(header, f"{said:g}", f"{allowed}; others only where all zero")
+        for header, cells in self.texts:
+            if header.startswith(("note", "source", "conf")) or len(set(cells)) == 1:
+                continue
+            if header in ("airfoil", "section"):
+                one = "one section along the span is all there is"
+                raise self.error(header, ", ".join(dict.fromkeys(cells)), f"must be the same in every line: {one}")
+            raise self.error(header, cells[0], f"column of text that varies; {allowed}")
 
     def has(self, base: str) -> bool:
         """Whether there is a column `base`, with or without suffix."""
@@ -84,14 +131,20 @@ class TableFile:
         return ", ".join(names) or "none (no unit)"
 
 
+def _is_of(header: str, base: str) -> bool:
+    """Whether `header` is the column `base`, bare or with the suffix of a unit; `M...` is any Mach number."""
+    if base == "M...":
+        return header.startswith("M") and _number(header[1:]) is not None
+    suffix = header.removeprefix(base + "_") if header.startswith(base + "_") else None
+    return header == base or suffix == "R" or suffix in SUFFIXES
+
+
 def read_csv(path: Path, provenance: Provenance) -> TableFile:
-    """Read a CSV file: `#` lines first, one header line, numbers (text columns are notes and left out)."""
+    """Read a CSV file: `#` lines first, one header line, numbers, and columns of text where no cell is a number."""
     try:
-        lines = path.read_text(encoding="utf-8").splitlines()
-    except OSError as reason:
-        raise ValueError(f"names the file {path}, which cannot be read") from reason
-    except UnicodeDecodeError as reason:
-        raise ValueError(f"names the file {path}, which is not UTF-8 text") from reason
+        lines = read_text(path).splitlines()
+    except ValueError as reason:
+        raise ValueError(f"names the file {path}, which {reason}") from reason
     comment = [line[1:].strip() for line in lines if line.startswith("#")]
     rows = [[cell.strip() for cell in line.split(",")] for line in lines if line.strip() and not line.startswith("#")]
     if len(rows) < 2:
@@ -103,16 +156,18 @@ def read_csv(path: Path, provenance: Provenance) -> TableFile:
         if len(row) != len(header):
             raise ValueError(f"names the file {path}, whose line '{','.join(row)[:40]}' has not {len(header)} columns")
     columns: dict[str, tuple[float, ...]] = {}
+    texts: list[tuple[str, tuple[str, ...]]] = []
     for index, name in enumerate(header):
         cells = [row[index] for row in body]
         numbers = [number for number in map(_number, cells) if number is not None]
-        if not numbers:
+        if not numbers and not any(map(_is_float, cells)):
+            texts.append((name, tuple(cells)))
             continue
         if len(numbers) != len(cells):
             wrong = next(cell for cell in cells if _number(cell) is None)
             raise ValueError(f"names the file {path}, whose column {name} holds '{wrong}', not a finite number")
         columns[name] = tuple(numbers)
-    return TableFile(path, columns, "\n".join(comment), provenance)
+    return TableFile(path, columns, "\n".join(comment), provenance, tuple(texts))
 
 
 def in_place(columns: Any, provenance: Provenance, info: ValidationInfo) -> TableFile:
@@ -121,10 +176,7 @@ def in_place(columns: Any, provenance: Provenance, info: ValidationInfo) -> Tabl
         raise ValueError("has columns that are not lists of numbers by name")
     lengths = set()
     for name, values in columns.items():
-        real = isinstance(values, list) and all(
-            isinstance(v, int | float) and not isinstance(v, bool) and math.isfinite(v) for v in values
-        )
-        if not real or not values:
+        if not isinstance(values, list) or not values or not all(map(_is_finite, values)):
             raise ValueError(f"has the column {name}, which is not a list of finite numbers")
         lengths.add(len(values))
     if len(lengths) != 1:
@@ -142,10 +194,29 @@ def _number(cell: str) -> float | None:
     return number if math.isfinite(number) else None
 
 
+def _is_float(cell: str) -> bool:
+    """Whether a cell is a number, finite or not."""
+    try:
+        float(cell)
+    except ValueError:
+        return False
+    return True
+
+
+def _is_finite(value: Any) -> bool:
+    """Whether a value of a TOML list is a number that is finite as a float."""
+    try:
+        return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+    except OverflowError:
+        return False
+
+
 def _validate(entry: Any, info: ValidationInfo) -> TableFile:
     allowed = "a table { table, source, confidence } naming a CSV file beside this one, or { columns, ... } in place"
     provenance = provenance_of(entry, info, {"table", "columns", "source", "confidence", "note"}, allowed)
-    if "columns" in entry and "table" not in entry:
+    if "columns" in entry and "table" in entry:
+        raise ValueError("has both a table and columns; one of the two is used")
+    if "columns" in entry:
         return in_place(entry["columns"], provenance, info)
     name = entry.get("table")
     if not isinstance(name, str) or not name:
@@ -157,6 +228,10 @@ def _validate(entry: Any, info: ValidationInfo) -> TableFile:
 
 Table = Annotated[TableFile, BeforeValidator(_validate)]
 """Type of a table named in an aircraft file."""
+
+
+HIGHEST_MACH = 2.0
+"""Highest Mach number of a section table: no blade of a helicopter flies faster."""
 
 
 def ascending(table: TableFile, name: str, values: list[float]) -> None:
@@ -193,7 +268,8 @@ def grid(table: TableFile, x: str, y: str, value: str, unit: str) -> dict[str, l
 
 
 def by_mach(table: TableFile) -> dict[str, list[Any]]:
-    """Section coefficient {x, y, values}: alpha [rad] over +-180 deg, Mach from 0.3 or less (held below) to 0.9 or more."""
+    """Section coefficient {x, y, values}: alpha [rad] over +-180 deg, by Mach number, held beyond its first and last."""
+    table.refuse_unused(("alpha", "M..."))
     alpha = table.column("alpha", "rad")
     ascending(table, "alpha", alpha)
     covering(table, "alpha", alpha, -math.pi, math.pi, "-180 to 180 deg")
@@ -202,6 +278,7 @@ def by_mach(table: TableFile) -> dict[str, list[Any]]:
     if not mach:
         raise table.error("M...", "missing", "columns by Mach number are needed, such as M0.0, M0.3")
     ascending(table, "M...", mach)
-    covering(table, "M...", mach, 0.3, 0.9, "Mach 0.3 (or less) to 0.9 (or more)")
+    if mach[0] < 0.0 or mach[-1] > HIGHEST_MACH:
+        raise table.error("M...", f"{mach[0]:g} .. {mach[-1]:g}", f"Mach numbers must lie between 0 and {HIGHEST_MACH:g}")
     values = [[table.columns[header][row] for header in headers] for row in range(len(alpha))]
     return {"x": alpha, "y": mach, "values": values}
