@@ -106,7 +106,6 @@ def linear_model(trim: Trim, step: float = 1.0, inertia: np.ndarray | None = Non
     def accelerations(residual: np.ndarray) -> np.ndarray:
         return residual[body] + passed_on @ residual[rotor]
 
-    velocity = core.hub(trim.state())[0]
     velocity = np.asarray(trim.state()[:3])
     columns = {
         name: accelerations(difference) for name, difference in _body_differences(trim, velocity, step).items()
@@ -114,15 +113,10 @@ def linear_model(trim: Trim, step: float = 1.0, inertia: np.ndarray | None = Non
     a = np.zeros((6, 8))
     for i, name in enumerate(STATES):
         a[:, i] = columns[name]
-    sticks = accelerations_of(jacobian, body, rotor, controls, passed_on)
+    sticks = jacobian[body, controls] + passed_on @ jacobian[rotor, controls]
     # theta_1c, theta_1s, theta_0, theta_tr by the sticks, into the order of CONTROLS
     b = (sticks @ np.linalg.inv(np.asarray(trim.model.data["rigging"]["matrix"])))[:, [2, 1, 0, 3]]
     return _assembled(trim, a, b, model_inertia(trim) if inertia is None else inertia)
-
-
-def accelerations_of(jacobian, body, rotor, columns, passed_on) -> np.ndarray:
-    """Balances by unknowns of the trim, blades and inflow following."""
-    return jacobian[body, columns] + passed_on @ jacobian[rotor, columns]
 
 
 def _body_differences(trim: Trim, velocity: np.ndarray, step: float) -> dict[str, np.ndarray]:
@@ -188,3 +182,25 @@ def _assembled(trim: Trim, a: np.ndarray, b: np.ndarray, inertia: np.ndarray) ->
     whole_a[3, 2], whole_a[3, 7] = np.cos(roll), -np.sin(roll)
     whole_a[6, [5, 2, 7]] = 1.0, np.sin(roll) * np.tan(pitch), np.cos(roll) * np.tan(pitch)
     return LinearModel(whole_a, whole_b)
+
+
+def periodic_roots(trim: Trim, steps: int = 360) -> np.ndarray:
+    """Characteristic exponents [1/s] of the whole aircraft about its trim with dynamic inflow, largest real part first.
+
+    The other way to the same modes: every blade, the inflow and the body, linearised along the trimmed revolution and carried over it
+    by the trapezoidal rule. Four exponents are zero (position and heading) and a fifth (length of the quaternion).
+    """
+    core, n = trim.model.core, trim.model.layout["size"]
+    period = 2 * np.pi / trim.model.omega
+    h = period / steps
+    transition, stiffness, mass = np.eye(n), np.empty((n, n)), np.empty((n, n))
+    for k in range(steps):
+        t = (k + 0.5) * h
+        y, y_dot = core.trim_state(trim.problem, trim.x, t)
+        inputs = trim.inputs(t)
+        core.jacobian(t, y, y_dot, inputs, 1.0, 0.0, stiffness)
+        core.jacobian(t, y, y_dot, inputs, 0.0, 1.0, mass)
+        half = 0.5 * h * stiffness
+        transition = np.linalg.solve(mass + half, (mass - half) @ transition)
+    exponents = np.log(np.linalg.eigvals(transition).astype(complex)) / period
+    return exponents[np.argsort(-exponents.real)]

@@ -1,71 +1,86 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Aircraft whose fuselage has other moment slopes than its file says: to see what the slopes do.
+"""The BO-105 with other moments on its fuselage: to see what they do.
 
-A table of loads over dynamic pressure is read into moments about the body axes, its slopes scaled, and written back. Pitching moment
-M(alpha) cos(beta) and yawing moment N(beta), as the BO-105's table is made.
+Moments are over dynamic pressure [m3], nose up and nose right positive, about the table's reference point: a pitching moment
+M(alpha) cos(beta) and a yawing moment N(beta), written into the columns of the fuselage's table. Two of them come from the same
+appendix of the source (Padfield, 4B): polynomials for small angles, stated in N m for 30.48 m/s, and piecewise linear coefficients on
+plan or side area and length that the source calls typical of a wide range of fuselages.
 """
 
 import shutil
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 
 import wakeflight as wf
 
+LENGTH, PLAN_AREA, SIDE_AREA = 8.56, 7.5, 8.3  # m, m2
+TUNNEL = 0.5 * 1.225 * 30.48**2  # N/m2
+GENERAL_PITCH = (-205, -160, -130, -60, -25, 25, 60, 130, 155, 200), (0.02, -0.03, 0.1, 0.1, -0.04, 0.02, -0.1, -0.1, 0.02, -0.03)
+GENERAL_YAW = (-180, -120, -70, -25, 0, 25, 70, 120, 180), (0, -0.1, -0.1, 0.005, 0, -0.005, 0.1, 0.1, 0)
+SMALL, LARGE = np.radians([20.0, 60.0])
 
-def read(path: Path) -> tuple[list[str], dict[str, np.ndarray]]:
-    """Lines of remarks and columns of a fuselage table."""
+Moment = Callable[[np.ndarray], np.ndarray]
+
+
+def general_pitch(alpha: np.ndarray) -> np.ndarray:
+    """Pitching moment by the source's general coefficients."""
+    return LENGTH * PLAN_AREA * np.interp(np.degrees(alpha), *GENERAL_PITCH)
+
+
+def general_yaw(beta: np.ndarray) -> np.ndarray:
+    """Yawing moment by the source's general coefficients."""
+    return LENGTH * SIDE_AREA * np.interp(np.degrees(beta), *GENERAL_YAW)
+
+
+def printed_pitch(alpha: np.ndarray) -> np.ndarray:
+    """Pitching moment by the source's polynomial within 20 deg, straight from there to the general one at 60 deg."""
+    return _faired(alpha, np.polynomial.Polynomial([-1191.8, 12752.0, 8201.3, -5796.7]), general_pitch)
+
+
+def printed_yaw(beta: np.ndarray) -> np.ndarray:
+    """Yawing moment by the source's polynomial within 20 deg, straight from there to the general one at 60 deg."""
+    return _faired(beta, np.polynomial.Polynomial([0.0, -10028.0]), general_yaw)
+
+
+def _faired(angle: np.ndarray, polynomial: Moment, general: Moment) -> np.ndarray:
+    edge = np.sign(angle)
+    share = np.clip((np.abs(angle) - SMALL) / (LARGE - SMALL), 0.0, 1.0)
+    near = polynomial(np.clip(angle, -SMALL, SMALL)) / TUNNEL
+    far = np.where(share < 1.0, general(edge * LARGE), general(angle))
+    return (1.0 - share) * near + share * far
+
+
+def sloped(slope: float, at_zero: float = 0.0) -> Moment:
+    """A moment with a constant slope [m3/rad]."""
+    return lambda angle: at_zero + slope * angle
+
+
+def with_moments(folder: Path, name: str, pitch: Moment, yaw: Moment) -> wf.Aircraft:
+    """The BO-105 with these moments on its fuselage, written into `folder`."""
+    target = folder / name
+    shutil.copytree(Path(wf.aircraft.__file__).parent / "bo105", target)
+    path = target / "fuselage.csv"
     lines = path.read_text().splitlines()
     remarks = [line for line in lines if line.startswith("#")]
     head, *rows = [line for line in lines if not line.startswith("#")]
-    values = np.array([[float(x) for x in row.split(",")] for row in rows])
-    return remarks, dict(zip(head.split(","), values.T, strict=True))
-
-
-def directions(alpha: np.ndarray, beta: np.ndarray) -> np.ndarray:
-    """Axes of the table's rolling, pitching and yawing moment in body axes (3, n, 3)."""
-    ca, sa, cb, sb = np.cos(alpha), np.sin(alpha), np.cos(beta), np.sin(beta)
-    zero = np.zeros_like(ca)
-    stream = np.stack([ca * cb, sb, sa * cb], axis=-1)
-    side = np.stack([-ca * sb, cb, -sa * sb], axis=-1)
-    lift = np.stack([-sa, zero, ca], axis=-1)
-    return np.stack([stream, side, lift])
-
-
-def moment_slopes(aircraft: wf.Aircraft) -> tuple[float, float]:
-    """Slopes of pitching moment by angle of attack and of yawing moment by sideslip, over dynamic pressure [m3/rad].
-
-    Nose up and nose right positive, within ten degrees of zero.
-    """
-    fuselage = aircraft.core_data(wf.FlightCondition(speed="80 kt", flight_path="0 deg", altitude="0 m"))["fuselage"]
-    pitching, yawing = fuselage["pitching"], fuselage["yawing"]
-    a, b = np.array(pitching["x"]), np.array(yawing["y"])
-    zero_a, zero_b = int(np.argmin(np.abs(a))), int(np.argmin(np.abs(b)))
-    m, n = np.array(pitching["values"])[:, zero_b], np.array(yawing["values"])[zero_a]
-    near_a, near_b = np.abs(a) < np.radians(10.1), np.abs(b) < np.radians(10.1)
-    return float(np.polyfit(a[near_a], m[near_a], 1)[0]), float(np.polyfit(b[near_b], n[near_b], 1)[0])
-
-
-def with_moments(folder: Path, pitch: float, yaw: float, at_zero: float = 1.0) -> wf.Aircraft:
-    """The BO-105 with its fuselage's pitching and yawing moments scaled, written into `folder`.
-
-    pitch: factor of what the pitching moment changes by from zero angle of attack; at_zero: factor of its value there; yaw: factor of
-    the yawing moment.
-    """
-    source = Path(wf.aircraft.__file__).parent / "bo105"
-    target = folder / f"bo105_{pitch:g}_{yaw:g}_{at_zero:g}"
-    shutil.copytree(source, target)
-    remarks, table = read(target / "fuselage.csv")
-    alpha, beta = np.radians(table["alpha_deg"]), np.radians(table["beta_deg"])
-    axes = directions(alpha, beta)
-    loads = np.stack([table["Rq_m3"], table["Mq_m3"], table["Nq_m3"]])
-    body = np.einsum("kn,kni->in", loads, axes)
-    level = np.isclose(beta, 0.0)
-    along = np.interp(alpha, alpha[level], body[1][level])
-    zero = np.interp(0.0, alpha[level], body[1][level])
-    body[1] = np.cos(beta) * (at_zero * zero + pitch * (along - zero))
-    body[2] = yaw * body[2]
-    table["Rq_m3"], table["Mq_m3"], table["Nq_m3"] = np.einsum("in,kni->kn", body, axes)
-    rows = [",".join(f"{value:.6g}" for value in row) for row in np.array(list(table.values())).T]
-    (target / "fuselage.csv").write_text("\n".join([*remarks, ",".join(table), *rows]) + "\n")
+    columns = head.split(",")
+    table = np.array([[float(x) for x in row.split(",")] for row in rows])
+    alpha, beta = np.radians(table[:, :2]).T
+    body = np.stack([np.zeros_like(alpha), pitch(alpha) * np.cos(beta), yaw(beta)])
+    for column, axis in zip(("Rq_m3", "Mq_m3", "Nq_m3"), directions(alpha, beta), strict=True):
+        table[:, columns.index(column)] = np.sum(axis * body, axis=0)
+    written = [",".join(f"{value:.4f}".removesuffix(".0000") for value in row) for row in table + 0.0]
+    path.write_text("\n".join([*remarks, head, *written]) + "\n")
     return wf.load_aircraft(target / "bo105.toml")
+
+
+def directions(alpha: np.ndarray, beta: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Axes of the table's rolling, pitching and yawing moment in body axes, (3, n) each."""
+    ca, sa, cb, sb = np.cos(alpha), np.sin(alpha), np.cos(beta), np.sin(beta)
+    return (
+        np.stack([ca * cb, sb, sa * cb]),
+        np.stack([-ca * sb, cb, -sa * sb]),
+        np.stack([-sa, np.zeros_like(sa), ca]),
+    )
