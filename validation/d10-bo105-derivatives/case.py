@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 from derivatives import STATES, gross_inertia, linear_model, periodic_roots, sorted_roots
-from fuselage import general_pitch, general_yaw, printed_pitch, printed_yaw, sloped, with_moments
+from fuselage import general_pitch, general_yaw, printed_pitch, printed_yaw, slender_body, sloped, with_moments
 
 import wakeflight as wf
 from wakeflight.plotting import style
@@ -27,7 +27,7 @@ VARIANTS = {
     "polynomials": (printed_pitch, printed_yaw),
     "a third of them": (lambda a: printed_pitch(a) / 3, lambda b: printed_yaw(b) / 3),
     "none": (sloped(0.0), sloped(0.0)),
-    "slender-body theory": (sloped(13.0), sloped(-15.0)),
+    "slender-body theory": (sloped(slender_body()), sloped(-slender_body())),
     "the Puma's coefficients": (sloped(PUMA_PITCH), sloped(PUMA_YAW)),
 }
 
@@ -108,5 +108,6 @@ def draw(roots):
         axes.plot(theirs.real, theirs.imag, "o", mfc="none", color=color)
     axes.set(xlim=(-1.0, 0.6), ylim=(-0.2, 4.2), xlabel="real part [1/s]", ylabel="imaginary part [1/s]")
     axes.axvline(0.0, color="grey", lw=0.5)
-    figure.legend(loc="outside lower center", ncols=4, title="crosses: program, circles: HELISIM")
+    axes.set_title("crosses: program, circles: HELISIM")
+    figure.legend(loc="outside lower center", ncols=4)
     return figure
