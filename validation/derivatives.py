@@ -107,9 +107,7 @@ def linear_model(trim: Trim, step: float = 1.0, inertia: np.ndarray | None = Non
         return residual[body] + passed_on @ residual[rotor]
 
     velocity = np.asarray(trim.state()[:3])
-    columns = {
-        name: accelerations(difference) for name, difference in _body_differences(trim, velocity, step).items()
-    }
+    columns = {name: accelerations(difference) for name, difference in _body_differences(trim, velocity, step).items()}
     a = np.zeros((6, 8))
     for i, name in enumerate(STATES):
         a[:, i] = columns[name]
@@ -144,9 +142,7 @@ def _body_differences(trim: Trim, velocity: np.ndarray, step: float) -> dict[str
 def polar_inertia(trim: Trim) -> float:
     """Moment of inertia of all blades about the shaft [kg m2]."""
     blade = trim.model.data["rotor"]["blade"]["structure"]
-    one = sum(
-        m * (b**3 - a**3) / 3 for m, a, b in zip(blade["mass"], blade["r_in"], blade["r_out"], strict=True)
-    )
+    one = sum(m * (b**3 - a**3) / 3 for m, a, b in zip(blade["mass"], blade["r_in"], blade["r_out"], strict=True))
     return trim.model.n_blades * one
 
 

@@ -88,6 +88,4 @@ def _of_wake(run: Recorder, time: np.ndarray) -> list[Monitor]:
         found.append(rotor.node_motion(run.scalars["max_displacement"][:n], run.model.rotor["radius"], time))
     if "unconverged_revolutions" in counted:
         found.append(rotor.unrenewed(counted["unconverged_revolutions"], counted["relaxation_updates"]))
-    else:
-        found.append(rotor.unsolved(counted["circulation_not_converged"], f"solves of {n - 1} steps", fatal=False))
     return found

@@ -56,7 +56,6 @@ def monitors(start: Trim) -> tuple[Monitor, ...]:
         airframe.sideslip(y[:2], condition.sideslip is not None),
     ]
     if start.wake is not None:
-        found.append(rotor.unsolved(start.wake.not_converged, f"of {start.wake.n} azimuths", fatal=True))
         found.append(rotor.vortex_distance(closest_vortex(model, start.wake)))
     return tuple(found)
 

@@ -10,8 +10,6 @@ import pytest
 import wakeflight as wf
 from wakeflight.exchange import RelaxationExchange
 from wakeflight.monitors import vortices
-from wakeflight.trim import physical
-from wakeflight.tunnel.results import Tunnel
 
 HOLD = wf.Maneuver("hold", (("lateral", ((0.0, 0.0), (0.1, 0.0))),), seconds=0.5)
 WATCHED = ("inflow_max", "inflow_bound", "mach_max", "mach_bound", "alpha_min", "alpha_max", "stalled_share")
@@ -55,16 +53,6 @@ def test_ordinary_flight_has_nothing_to_be_told(baseline_dynamic, baseline_relax
     assert wf.fly(baseline_dynamic, HOLD, inflow="dynamic", integrator="fixed").warnings == ()
 
 
-def test_a_trim_whose_inner_solves_failed_is_no_trim(baseline_relaxation):
-    wake = wf.trim(baseline_relaxation.aircraft, baseline_relaxation.condition, inflow="relaxation").wake
-    wake.not_converged = 3
-    found = dataclasses.replace(baseline_relaxation, wake=wake)
-    with pytest.raises(wf.NumericalFailure, match="do not agree at 3 of 36 azimuths") as caught:
-        physical(found)
-    assert caught.value.partial is found
-    assert "3 of 36" in found.to_dataset().attrs["failure"]
-
-
 def test_a_stand_beyond_physics_ends_with_what_it_computed(stand, monkeypatch):
     # an inflow map no vortex can give: the solution is kept, and is no result
     spoiled = stand.solution.inflow_map.copy()
@@ -74,14 +62,6 @@ def test_a_stand_beyond_physics_ends_with_what_it_computed(stand, monkeypatch):
     with pytest.raises(wf.NumericalFailure, match=r"0\.98 of the tip speed at psi = 90 deg, r/R = 0\.999") as caught:
         wf.tunnel("uh60a", ct=0.006, speed="60 kt", flapping="zero", inflow="relaxation", blades="rigid")
     assert "0.98 of the tip speed" in caught.value.partial.data.attrs["failure"]
-
-
-def test_a_stand_with_unsolved_circulation_is_not_settled(stand):
-    assert stand.settled
-    half = Tunnel(dataclasses.replace(stand.solution, unsolved=2))
-    assert not half.settled and half.data.attrs["settled"] == 0
-    told = "circulation and near wake do not agree at 2 of 36 azimuths"
-    assert told in half.warnings and told in half.notes and told in half.table()
 
 
 def test_a_stand_says_where_its_blades_leave_the_tables():

@@ -47,7 +47,9 @@ def published(table, speed):
 
 
 def level(aircraft, speed):
-    return wf.trim(aircraft, wf.FlightCondition(speed=f"{speed} kt", flight_path="0 deg", altitude="0 m"), inflow="dynamic")
+    return wf.trim(
+        aircraft, wf.FlightCondition(speed=f"{speed} kt", flight_path="0 deg", altitude="0 m"), inflow="dynamic"
+    )
 
 
 def run(case):
@@ -70,7 +72,9 @@ def run(case):
     finer = linear_model(start, step=0.25)
     change = np.max(np.abs(finer.eigenvalues - roots[SPEEDS[-1]][0]))
     notes.append(f"Differences a quarter as large move no root at {speed} kt by more than {change:.1e} 1/s.")
-    notes.append(f"The whole aircraft over a revolution, {speed} kt, slowest roots: {listed(slow(periodic_roots(start)))}.")
+    notes.append(
+        f"The whole aircraft over a revolution, {speed} kt, slowest roots: {listed(slow(periodic_roots(start)))}."
+    )
     with tempfile.TemporaryDirectory() as folder:
         for name, moments in VARIANTS.items():
             notes += variant(name, with_moments(Path(folder), name.replace(" ", "-"), *moments))

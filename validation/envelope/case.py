@@ -68,7 +68,9 @@ def name_of(f):
 
 def counted(kind, cases):
     """Failures: those that name no limit count."""
-    without = [f for f in cases if f["failure"] and (not f["named"] or "no stick, stall or inflow limit" in f["failure"])]
+    without = [
+        f for f in cases if f["failure"] and (not f["named"] or "no stick, stall or inflow limit" in f["failure"])
+    ]
     named = [f for f in cases if f["failure"] and f not in without]
     return [
         count(f"{kind}: failures without a named limit, of {len(cases)}", without, note=told(without)),
@@ -83,9 +85,16 @@ def bounded(kind, flights):
     fast = [f for f in flights if f["mach"] >= 1.1 * f["mach_of_motion"]]
     worst = max(flights, key=lambda f: f["inflow"])
     return [
-        count(f"{kind}: flights with a number that is not finite, of {len(flights)}", [f for f in flights if not f["finite"]]),
+        count(
+            f"{kind}: flights with a number that is not finite, of {len(flights)}",
+            [f for f in flights if not f["finite"]],
+        ),
         count(f"{kind}: flights with an unsolved circulation", [f for f in flights if f["unsolved"]]),
-        count(f"{kind}: flights with inflow of {LARGEST_INFLOW} or more", beyond, note=f"largest {worst['inflow']:.3f}, {name_of(worst)}"),
+        count(
+            f"{kind}: flights with inflow of {LARGEST_INFLOW} or more",
+            beyond,
+            note=f"largest {worst['inflow']:.3f}, {name_of(worst)}",
+        ),
         count(f"{kind}: flights beyond 1.1 times the Mach number of motion", fast),
     ]
 
@@ -96,7 +105,9 @@ def held(flights):
     load = max(flights, key=lambda f: f["load_factor"][1] - f["load_factor"][0])
     return [
         Check("hands off: largest change of a body rate", rate["rate"], 0.0, RATE, "deg/s", note=name_of(rate)),
-        Check("hands off: largest change of attitude", attitude["attitude"], 0.0, ATTITUDE, "deg", note=name_of(attitude)),
+        Check(
+            "hands off: largest change of attitude", attitude["attitude"], 0.0, ATTITUDE, "deg", note=name_of(attitude)
+        ),
         Check("hands off: widest range of load factor", np.ptp(load["load_factor"]), 0.0, 2 * LOAD, note=name_of(load)),
     ]
 

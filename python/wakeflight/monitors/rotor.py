@@ -197,18 +197,6 @@ def node_motion(step: Any, radius: float, time: np.ndarray | None = None) -> Mon
     return Monitor("wake node motion", f"{most:.3f} R in a step at most", {"max_displacement": step}, warning)
 
 
-def unsolved(count: int, of: str, fatal: bool) -> Monitor:
-    """Inner solves of circulation and near wake that did not end in a solution; `of`: among what, as `of 36 azimuths`.
-
-    fatal: whether the result is none then; a stand is returned, not settled.
-    """
-    text = f"circulation and near wake do not agree at {count} {of}"
-    said = text if count else None
-    return Monitor(
-        "unsolved circulation", f"{count} {of}", warning=None if fatal else said, failure=said if fatal else None
-    )
-
-
 def unrenewed(count: int, renewals: int) -> Monitor:
     """Renewals of a relaxed wake in flight in which inflow and circulation did not agree."""
     text = f"inflow and circulation do not agree in {count} of {renewals} renewals of the wake"

@@ -39,7 +39,6 @@ def monitors(stand: Tunnel) -> tuple[Monitor, ...]:
         _axial(stand, mu, mu_z),
     ]
     if solution.wake is not None:
-        found.append(rotor.unsolved(solution.unsolved, solution.solved_of, fatal=False))
         if stand.turns_kept:
             turns = stand.turns_kept
             found.append(rotor.vortex_distance(min(turn.vortex_blade_distance for turn in turns)))

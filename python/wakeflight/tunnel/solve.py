@@ -46,9 +46,6 @@ class Solution:
     revolutions: list[Revolution] = field(default_factory=list)
     averaged: int = 0
     settled: bool = True
-    unsolved: int = 0
-    """Solves of circulation and near wake behind the solution that did not end in one, among `solved_of`."""
-    solved_of: str = ""
     notes: list[str] = field(default_factory=list)
     history: list[dict[str, float]] = field(default_factory=list)
     snapshots: list[_core.TimeMarchingWake] = field(default_factory=list)
@@ -63,7 +60,6 @@ class Revolution:
     inflow: np.ndarray
     path: np.ndarray
     x: np.ndarray
-    unsolved: int
     """Steps whose circulation and near wake did not agree."""
     vortex_blade_distance: float
     """Smallest distance of a tip vortex from a blade, in core radii."""
@@ -201,8 +197,6 @@ def on_relaxation(model: StandModel, start: Solution, progress: Progress | Silen
         circulation,
         wake=wake,
         settled=settled,
-        unsolved=wake.not_converged,
-        solved_of=f"of {wake.n} azimuths",
         notes=notes,
         history=history,
     )
@@ -282,8 +276,6 @@ def on_marching(
 def _average(run: Solution, n: int) -> None:
     """Take the means of a marched solution over its last `n` revolutions."""
     run.averaged = n
-    run.unsolved = sum(turn.unsolved for turn in run.revolutions[-n:])
-    run.solved_of = f"solves of the last {n} revolutions"
 
 
 def _diverged(run: Solution, revolution: int, reason: Exception) -> NumericalFailure:
@@ -302,7 +294,6 @@ def march_revolution(
 ) -> Revolution:
     """One revolution at the motion and pitch of `x`; `snapshots` then holds the wake of each of its steps."""
     rows, inflow, path, watched = [], [], [], []
-    unsolved = march.circulation_not_converged
     snapshots.clear()
     for _ in range(march.n):
         row, lam, _ = march.frozen_step(problem, x)
@@ -322,7 +313,6 @@ def march_revolution(
         inflow,
         np.array(path),
         x,
-        unsolved=march.circulation_not_converged - unsolved,
         vortex_blade_distance=min(each["vortex_blade_distance"] for each in watched),
         max_displacement=max(each["max_displacement"] for each in watched),
     )
