@@ -13,6 +13,7 @@ import numpy as np
 from . import _core
 from .aircraft import Aircraft
 from .condition import FlightCondition, condition_for
+from .errors import NumericalFailure
 from .inflow import DynamicInflow, InflowModel, TimeMarchingWake, inflow_model, trim_model
 from .model import Model
 from .monitors import Monitor, failures, warnings
