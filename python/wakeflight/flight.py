@@ -196,7 +196,7 @@ def fly(
     n_steps = flown_steps(model, maneuver, revolutions)
     sticks = Sticks(maneuver, start.stick_si)
     warnings = maneuver.check_travel(sticks.trim_in, travel, None, start.aircraft.stick_rate_limit_in)
-    warnings += [f"trim: {text}" for text in start.warnings]
+    warnings += [*start.aircraft.warnings, *(f"trim: {text}" for text in monitored(start.monitors))]
     for text in warnings:
         progress(f"warning: {text}")
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .errors import NumericalFailure
-from .inflow import DynamicInflow
+from .inflow import DynamicInflow, RelaxationWake
 from .limits import stall_angles
 from .model import Model
 from .monitors import Monitor, Places, airframe, rotor
@@ -86,6 +86,6 @@ def _of_wake(run: Recorder, time: np.ndarray) -> list[Monitor]:
     if distance is not None:
         found.append(rotor.vortex_distance(distance))
         found.append(rotor.node_motion(run.scalars["max_displacement"][:n], run.model.rotor["radius"], time))
-    if "unconverged_revolutions" in counted:
+    if isinstance(run.model.inflow, RelaxationWake):
         found.append(rotor.unrenewed(counted["unconverged_revolutions"], counted["relaxation_updates"]))
     return found

@@ -126,7 +126,7 @@ class Trim:
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """What lies beyond a limit of the aircraft or of the model."""
+        """What is doubtful in the aircraft's data, and what lies beyond a limit of aircraft or model."""
         return (*self.aircraft.warnings, *warnings(self.monitors))
 
     @property
@@ -175,7 +175,7 @@ def trim(
     free wake at which they rest.
 
     Raises `InputError` for bad input and `NumericalFailure`, saying what limits, where no trim is found; also where what was
-    found is beyond physics, with the trim as `partial`. What is beyond a limit stands in `.warnings`.
+    found is beyond physics, with the trim as `partial`. What is beyond a limit of aircraft or model stands in `.warnings`.
     """
     progress = progress or Silent()
     started = time.perf_counter()

@@ -11,12 +11,9 @@ from . import _core
 from .inflow import DynamicInflow
 from .limits import in_vortex_ring, stall_angles, stalled, sticks_beyond
 from .model import Model
+from .monitors.rotor import SLOW, STALLED_SHARE
 from .trim_equations import INCH
 
-STALLED = 0.05
-"""Share of the disk beyond stall from which it is named."""
-SLOW = 0.3
-"""Section speed over the tip speed below which stall is not counted: the surroundings of the reversed flow."""
 TAIL_LOADING = 0.15
 """C_T/sigma of a tail rotor, a mean lift coefficient of 0.9, beyond which its thrust formula knows no stall but blades do."""
 STICKS = ("lateral", "longitudinal", "collective", "pedal")
@@ -31,7 +28,7 @@ def limiting(
     texts = []
     rotor = over_the_disk(model, problem, x, inflow_map)
     share, loading = rotor["stalled"], rotor["ct"] / model.aircraft.solidity
-    if share > STALLED:
+    if share > STALLED_SHARE:
         texts.append(f"main rotor: {100 * share:.0f} % of the disk beyond stall at C_T/sigma {loading:.3f}")
     texts += sticks_beyond(dict(zip(STICKS, (x[:4] / INCH).tolist(), strict=True)), model.aircraft.stick_travel_in)
     tail = tail_loading(model, problem, x)
@@ -65,7 +62,7 @@ def over_the_disk(
         held, mean = (None, 0.0) if inflow_map is None else (inflow_map[rows], model.disk_mean(inflow_map))
         inputs = _core.Inputs(x[:4], np.zeros(4), 0.0, held, mean, incidence)
         out = core.outputs(t, *core.trim_state(problem, x, t), inputs)
-        beyond.append(stalled(angles, out["alpha"], out["mach"]) & (out["mach"] >= slow))
+        beyond.append(stalled(angles, out["alpha"], out["mach"], slow))
         ct.append(out["ct"])
     return {"stalled": float(np.mean(np.array(beyond) @ model.area_weights)), "ct": float(np.mean(ct))}
 

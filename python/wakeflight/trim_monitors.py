@@ -11,6 +11,7 @@ from .inflow import DynamicInflow
 from .limits import stall_angles
 from .model import CompiledRotor
 from .monitors import Monitor, Places, airframe, rotor, vortices
+from .trim_limits import TAIL_LOADING, tail_loading
 from .trim_results import instants, mean_outputs
 
 if TYPE_CHECKING:
@@ -51,6 +52,7 @@ def monitors(start: Trim) -> tuple[Monitor, ...]:
         rotor.pitch({"collective": at_75, "cyclic": cyclic}, float(np.arctan2(-mu_z, 0.75)), why),
         rotor.axial_flow(mu, mu_z, mean["ct"], isinstance(start.inflow, DynamicInflow)),
         *airframe.sticks(start.stick, start.aircraft.stick_travel_in),
+        airframe.tail_rotor(tail_loading(model, start.problem, start.x), TAIL_LOADING),
         airframe.power(mean["power"], start.aircraft.limits.power),
         airframe.attitude(start.roll, start.pitch, condition.bank is not None or condition.turn_rate != 0.0),
         airframe.sideslip(y[:2], condition.sideslip is not None),

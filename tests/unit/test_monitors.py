@@ -217,6 +217,12 @@ def test_a_stick_that_moves_beyond_its_stop_is_told_with_its_time():
     assert told == "lateral at 11.00 in, beyond its stop at 10 in, from t = 0.90 s"
 
 
+def test_a_tail_rotor_beyond_its_thrust_is_told():
+    assert airframe.tail_rotor(None, 0.15).text == "none"
+    assert airframe.tail_rotor(0.1, 0.15).warning is None
+    assert "tail rotor at C_T/sigma -0.210" in airframe.tail_rotor(-0.21, 0.15).warning
+
+
 def test_power_is_held_against_a_limit_only_where_one_is_stated():
     assert airframe.power(2.5e6, None).warning is None
     assert airframe.power(2.0e6, 2.1e6).warning is None

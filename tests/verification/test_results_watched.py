@@ -10,6 +10,7 @@ import pytest
 import wakeflight as wf
 from wakeflight.exchange import RelaxationExchange
 from wakeflight.monitors import vortices
+from wakeflight.trim import physical
 
 HOLD = wf.Maneuver("hold", (("lateral", ((0.0, 0.0), (0.1, 0.0))),), seconds=0.5)
 WATCHED = ("inflow_max", "inflow_bound", "mach_max", "mach_bound", "alpha_min", "alpha_max", "stalled_share")
@@ -48,9 +49,26 @@ def test_a_trim_beyond_the_stops_is_told_and_so_is_a_flight_from_it(fast):
     assert any(text.startswith(told) and "from t = 0.00 s" in text for text in flight.warnings)
 
 
+def test_power_beyond_the_stated_limit_is_told(fast):
+    limit = fast.aircraft.limits.power
+    assert limit is not None and float(fast.to_dataset().power) > limit
+    assert any(text.startswith("power ") and "beyond the aircraft's 2109 kW" in text for text in fast.warnings)
+
+
 def test_ordinary_flight_has_nothing_to_be_told(baseline_dynamic, baseline_relaxation):
     assert baseline_dynamic.warnings == baseline_relaxation.warnings == ()
     assert wf.fly(baseline_dynamic, HOLD, inflow="dynamic", integrator="fixed").warnings == ()
+
+
+def test_a_trim_beyond_physics_is_raised_and_kept(baseline_relaxation):
+    spoiled = baseline_relaxation.inflow_map.copy()
+    spoiled[18, 0] = -0.98
+    found = dataclasses.replace(baseline_relaxation, inflow_map=spoiled)
+    with pytest.raises(wf.NumericalFailure, match=r"trim: .* 0\.98 of the tip speed at psi = 180 deg") as caught:
+        physical(found)
+    assert caught.value.partial is found
+    assert "0.98 of the tip speed" in found.to_dataset().attrs["failure"]
+    assert physical(baseline_relaxation) is baseline_relaxation
 
 
 def test_a_stand_beyond_physics_ends_with_what_it_computed(stand, monkeypatch):

@@ -64,6 +64,16 @@ def power(engine: Any, limit: float | None, time: np.ndarray | None = None) -> M
     return Monitor("power at most", f"{most / 1e3:.0f} kW ({stated})", warning=warning)
 
 
+def tail_rotor(loading: float | None, limit: float) -> Monitor:
+    """C_T/sigma of the tail rotor, whose thrust formula knows no stall, against `limit`; None without a tail rotor."""
+    if loading is None:
+        return Monitor("tail rotor", "none")
+    warning = None
+    if abs(loading) > limit:
+        warning = f"tail rotor at C_T/sigma {loading:.3f}, beyond the {limit:g} that blades without stall can have"
+    return Monitor("tail rotor", f"C_T/sigma {loading:.3f}", warning=warning)
+
+
 def attitude(roll: float, pitch: float, asked_bank: bool) -> Monitor:
     """Roll and pitch [rad] that a trim found; `asked_bank`: the bank is that of a turn or was given."""
     named = {"pitch attitude": pitch} if asked_bank else {"roll": roll, "pitch attitude": pitch}

@@ -95,7 +95,7 @@ def stall(
     Stall is not counted in reversed flow, nor where a section is slower than `SLOW` of the tip, `tip_mach`. weights
     (n_stations,): shares of the disk area. passage: steps of a history in which the blades pass every azimuth once.
     """
-    beyond = stalled(angles, alpha, mach, SLOW * tip_mach)
+    beyond = stalled(angles, alpha, mach, slow=SLOW * tip_mach)
     fields = beyond, beyond & (alpha < 0.0), reversed_flow(alpha)
     share, below, backward = (over_passage(places.mean_over_disk(each, weights), passage) for each in fields)
     most = float(np.max(share))

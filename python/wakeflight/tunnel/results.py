@@ -49,7 +49,7 @@ class Tunnel:
 
     @property
     def settled(self) -> bool:
-        """Whether inflow, circulation and blade motion rest; if not, `.notes` says what does not."""
+        """Whether inflow, circulation and blade motion rest; if not, `.notes` says what still changes."""
         return self.solution.settled
 
     @property
@@ -66,8 +66,8 @@ class Tunnel:
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """What lies beyond a limit of the model."""
-        return warnings(self.monitors)
+        """What is doubtful in the rotor's data, and what lies beyond a limit of the model."""
+        return (*self.model.aircraft.warnings, *warnings(self.monitors))
 
     @property
     def failures(self) -> tuple[str, ...]:

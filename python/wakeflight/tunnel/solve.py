@@ -60,7 +60,6 @@ class Revolution:
     inflow: np.ndarray
     path: np.ndarray
     x: np.ndarray
-    """Steps whose circulation and near wake did not agree."""
     vortex_blade_distance: float
     """Smallest distance of a tip vortex from a blade, in core radii."""
     max_displacement: float
@@ -249,7 +248,7 @@ def on_marching(
         held = new_map if revolution == 0 else 0.5 * (held + new_map)
         run.problem, run.x, run.inflow_map = problem, x, new_map
         run.circulation = by_azimuth(turned.rows, turned.passages["circulation"], march.n)
-        _average(run, min(n_mean, len(run.revolutions)))
+        run.averaged = min(n_mean, len(run.revolutions))
         # a Weissinger blade holds a second inflow behind that of the stations
         change = (new_map - last_map)[:, : model.stations.size]
         rms = float(np.sqrt(np.mean((change**2) @ model.area_weights)))
@@ -262,8 +261,7 @@ def on_marching(
         progress.advance(1, f"inflow change {relative:.1e} of its mean, blades {change:.1e} rad")
         run.history.append({"inflow_change_per_revolution": relative, "change": change})
         if revolution >= 3 and relative < SETTLED and change < 1e-5:
-            run.settled = True
-            _average(run, min(run.averaged, 2))
+            run.settled, run.averaged = True, min(run.averaged, 2)
             break
     if not run.settled:
         run.notes.append(
@@ -271,11 +269,6 @@ def on_marching(
             f"means over the last {run.averaged} of {len(run.revolutions)} revolutions"
         )
     return run
-
-
-def _average(run: Solution, n: int) -> None:
-    """Take the means of a marched solution over its last `n` revolutions."""
-    run.averaged = n
 
 
 def _diverged(run: Solution, revolution: int, reason: Exception) -> NumericalFailure:
