@@ -87,7 +87,7 @@ def test_sections_along_the_span_are_refused_by_the_key_the_file_has(tmp_path):
 @pytest.mark.parametrize(
     ("old", "new", "named"),
     [
-        ('geometry = { columns = {', 'geometry = [1, 2] # {', "rotor.blade.geometry"),
+        ("geometry = { columns = {", "geometry = [1, 2] # {", "rotor.blade.geometry"),
         ("[rotor.blade]", "lag_damper = 3\n[rotor.blade]", "rotor.lag_damper"),
         ('omega = "1250 rpm"', 'omega = "4000 rpm"', "rotor.omega"),
         ("n_blades = 2", "n_blades = 0", "rotor.n_blades"),
