@@ -171,7 +171,7 @@ def test_a_history_that_would_not_be_flown_is_refused(given, named):
 def test_a_history_in_revolutions_that_begins_after_the_end_is_refused_for_the_aircraft():
     # three revolutions at 27 rad/s are 0.698 s
     late = Maneuver("late", (("pedal", ((0.8, 0.0), (1.0, 0.5))),), revolutions=3)
-    with pytest.raises(InputError, match="0.698"):
+    with pytest.raises(InputError, match=r"0\.698"):
         late.for_aircraft(TRAVEL, OMEGA)
     assert late.for_aircraft(TRAVEL, OMEGA / 2).check_end(1.396) == []
 
