@@ -11,6 +11,8 @@ once: what they need a few tenths of a second for (flap regression, lag) is not 
 aircraft, blades as a point mass at the hub, and about the shaft the blades' whole polar inertia, because rotor speed is constant against
 the airframe.
 
+A stabilizer with a schedule follows it at once, as in trim.
+
 States and controls are those of HELISIM's matrices: u, w, q, theta, v, p, phi, r [m/s, rad/s, rad]; theta_0, theta_1s, theta_1c,
 theta_tr [rad at the blade].
 """
