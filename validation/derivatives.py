@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """Six-degree-of-freedom derivatives of an aircraft about a trim with dynamic inflow, the rotor quasi-static.
 
-The trim equations are averages over a revolution: six balances, and what rotor and inflow need to be periodic. Perturb speed, rates,
-attitude and controls, let blades and inflow find their new periodic state, and the balances say how the body accelerates:
+The trim equations are averages over a revolution: six balances, and what rotor and inflow need to be periodic. Perturb speed,
+rates, attitude and controls, let blades and inflow find their new periodic state, and the balances say how the body accelerates:
 
     df = (F_b - F_s S_s^-1 S_b) d(u, w, q, theta, v, p, phi, r, controls),    x_dot = M^-1 df,
 
 F the balances, S the equations of rotor and inflow, index s their own unknowns, b those of the body. Blades and inflow follow at
-once: what they need a few tenths of a second for (flap regression, lag) is not in it. M is the mass matrix that goes with it: the gross
-aircraft, blades as a point mass at the hub, and about the shaft the blades' whole polar inertia, because rotor speed is constant against
-the airframe.
+once: what they need a few tenths of a second for (flap regression, lag) is not in it. M is the mass matrix that goes with it:
+the gross aircraft, blades as a point mass at the hub, and about the shaft the blades' whole polar inertia, because rotor speed
+is constant against the airframe.
 
 A stabilizer with a schedule follows it at once, as in trim.
 
@@ -109,9 +109,7 @@ def linear_model(trim: Trim, step: float = 1.0, inertia: np.ndarray | None = Non
         return residual[body] + passed_on @ residual[rotor]
 
     velocity = np.asarray(trim.state()[:3])
-    columns = {
-        name: accelerations(difference) for name, difference in _body_differences(trim, velocity, step).items()
-    }
+    columns = {name: accelerations(difference) for name, difference in _body_differences(trim, velocity, step).items()}
     a = np.zeros((6, 8))
     for i, name in enumerate(STATES):
         a[:, i] = columns[name]
@@ -146,9 +144,7 @@ def _body_differences(trim: Trim, velocity: np.ndarray, step: float) -> dict[str
 def polar_inertia(trim: Trim) -> float:
     """Moment of inertia of all blades about the shaft [kg m2]."""
     blade = trim.model.data["rotor"]["blade"]["structure"]
-    one = sum(
-        m * (b**3 - a**3) / 3 for m, a, b in zip(blade["mass"], blade["r_in"], blade["r_out"], strict=True)
-    )
+    one = sum(m * (b**3 - a**3) / 3 for m, a, b in zip(blade["mass"], blade["r_in"], blade["r_out"], strict=True))
     return trim.model.n_blades * one
 
 
@@ -189,8 +185,8 @@ def _assembled(trim: Trim, a: np.ndarray, b: np.ndarray, inertia: np.ndarray) ->
 def periodic_roots(trim: Trim, steps: int = 360) -> np.ndarray:
     """Characteristic exponents [1/s] of the whole aircraft about its trim with dynamic inflow, largest real part first.
 
-    The other way to the same modes: every blade, the inflow and the body, linearised along the trimmed revolution and carried over it
-    by the trapezoidal rule. Four exponents are zero (position and heading) and a fifth (length of the quaternion).
+    The other way to the same modes: every blade, the inflow and the body, linearised along the trimmed revolution and carried
+    over it by the trapezoidal rule. Four exponents are zero (position and heading) and a fifth (length of the quaternion).
     """
     core, n = trim.model.core, trim.model.layout["size"]
     period = 2 * np.pi / trim.model.omega

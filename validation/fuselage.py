@@ -3,8 +3,8 @@
 
 Moments are over dynamic pressure [m3], nose up and nose right positive, about the table's reference point: a pitching moment
 M(alpha) cos(beta) and a yawing moment N(beta), written into the columns of the fuselage's table. Two of them come from the same
-appendix of the source (Padfield, 4B): polynomials for small angles, stated in N m for 30.48 m/s, and piecewise linear coefficients on
-plan or side area and length that the source calls typical of a wide range of fuselages.
+appendix of the source (Padfield, 4B): polynomials for small angles, stated in N m for 30.48 m/s, and piecewise linear ones
+as coefficients on plan or side area and length, which the source calls typical of a wide range of fuselages.
 """
 
 import shutil
@@ -19,7 +19,10 @@ LENGTH, PLAN_AREA, SIDE_AREA = 8.56, 7.5, 8.3  # m, m2
 VOLUME = 8.2  # m3, estimate: elliptic sections 1.58 m wide, pod and boom of the two areas
 APPARENT_MASS = 0.84  # k2 - k1 of a spheroid five times as long as thick
 TUNNEL = 0.5 * 1.225 * 30.48**2  # N/m2
-GENERAL_PITCH = (-205, -160, -130, -60, -25, 25, 60, 130, 155, 200), (0.02, -0.03, 0.1, 0.1, -0.04, 0.02, -0.1, -0.1, 0.02, -0.03)
+GENERAL_PITCH = (
+    (-205, -160, -130, -60, -25, 25, 60, 130, 155, 200),
+    (0.02, -0.03, 0.1, 0.1, -0.04, 0.02, -0.1, -0.1, 0.02, -0.03),
+)
 GENERAL_YAW = (-180, -120, -70, -25, 0, 25, 70, 120, 180), (0, -0.1, -0.1, 0.005, 0, -0.005, 0.1, 0.1, 0)
 SMALL, LARGE = np.radians([20.0, 60.0])
 

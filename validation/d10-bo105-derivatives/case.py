@@ -1,4 +1,4 @@
-"""BO-105 derivatives about level flight, blades and inflow quasi-static, beside HELISIM's; and what the fuselage's moments do to them."""
+"""BO-105 derivatives about level flight, blades and inflow quasi-static, beside HELISIM's; what the fuselage's moments do."""
 
 import tempfile
 from pathlib import Path
@@ -47,7 +47,9 @@ def published(table, speed):
 
 
 def level(aircraft, speed):
-    return wf.trim(aircraft, wf.FlightCondition(speed=f"{speed} kt", flight_path="0 deg", altitude="0 m"), inflow="dynamic")
+    return wf.trim(
+        aircraft, wf.FlightCondition(speed=f"{speed} kt", flight_path="0 deg", altitude="0 m"), inflow="dynamic"
+    )
 
 
 def run(case):
@@ -70,7 +72,9 @@ def run(case):
     finer = linear_model(start, step=0.25)
     change = np.max(np.abs(finer.eigenvalues - roots[SPEEDS[-1]][0]))
     notes.append(f"Differences a quarter as large move no root at {speed} kt by more than {change:.1e} 1/s.")
-    notes.append(f"The whole aircraft over a revolution, {speed} kt, slowest roots: {listed(slow(periodic_roots(start)))}.")
+    notes.append(
+        f"The whole aircraft over a revolution, {speed} kt, slowest roots: {listed(slow(periodic_roots(start)))}."
+    )
     with tempfile.TemporaryDirectory() as folder:
         for name, moments in VARIANTS.items():
             notes += variant(name, with_moments(Path(folder), name.replace(" ", "-"), *moments))
@@ -84,8 +88,9 @@ def variant(name, aircraft):
         model = linear_model(start)
         plain = linear_model(start, inertia=gross_inertia(start))
         yield (
-            f"Moments {name}, {speed} kt: N_v {plain['N_v']:.3f}, M_w {model['M_w']:.3f}, M_u {model['M_u']:.4f}, longitudinal cyclic "
-            f"{np.degrees(start.theta_1s):.2f} deg, pitch {np.degrees(start.pitch):.2f} deg; roots {listed(model.eigenvalues[2:])}."
+            f"Moments {name}, {speed} kt: N_v {plain['N_v']:.3f}, M_w {model['M_w']:.3f}, M_u {model['M_u']:.4f}, "
+            f"longitudinal cyclic {np.degrees(start.theta_1s):.2f} deg, pitch {np.degrees(start.pitch):.2f} deg; "
+            f"roots {listed(model.eigenvalues[2:])}."
         )
 
 
