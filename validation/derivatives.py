@@ -17,12 +17,12 @@ States and controls are those of HELISIM's matrices: u, w, q, theta, v, p, phi, 
 theta_tr [rad at the blade].
 """
 
-from dataclasses import dataclass
+from copy import copy
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from wakeflight import _core
-from wakeflight.trim import Trim
+from wakeflight.trim import Trim, trim_problem
 
 STATES = ("u", "w", "q", "theta", "v", "p", "phi", "r")
 CONTROLS = ("theta_0", "theta_1s", "theta_1c", "theta_tr")
@@ -79,19 +79,19 @@ def balances(
     north, east, down = rotation(roll, pitch, 0.0) @ velocity
     speed = float(np.linalg.norm(velocity))
     climb = float(np.arctan2(-down, np.hypot(north, east)))
-    n_harmonics, n_azimuths = _fineness(trim)
-    problem = _core.TrimProblem(speed, climb, turn_rate, "bank", 0.0, n_harmonics, n_azimuths, None, 0.0)
+    condition = copy(trim.condition)
+    for name, value in (("speed", speed), ("flight_path", climb), ("turn_rate", turn_rate)):
+        object.__setattr__(condition, name, value)
+    problem = trim_problem(replace(trim.model, condition=condition), None, _harmonics(trim))
     y = trim.x.copy() if x is None else x.copy()
     y[4:7] = roll, pitch, -np.arctan2(east, north)
     return trim.model.core.trim_residual(problem, y)
 
 
-def _fineness(trim: Trim) -> tuple[int, int]:
-    """Harmonics and azimuths of the trim's own problem."""
+def _harmonics(trim: Trim) -> int:
+    """Harmonics of the blades' motion in the trim's own problem."""
     modes, _, _ = trim.model.core.trim_layout(trim.problem)
-    n_harmonics = (modes[1] - modes[0] - 1) // 2
-    n = trim.model.steps_per_revolution
-    return n_harmonics, n * int(np.ceil(4 * n_harmonics / n))
+    return (modes[1] - modes[0] - 1) // 2
 
 
 def linear_model(trim: Trim, step: float = 1.0, inertia: np.ndarray | None = None) -> LinearModel:
