@@ -14,7 +14,6 @@ import wakeflight as wf
 from wakeflight import _core
 from wakeflight.exchange import MarchingExchange
 from wakeflight.inflow import trim_model
-from wakeflight.tunnel import configured
 
 ROOT = Path(__file__).resolve().parents[1]
 CARADONNA_TUNG = ROOT / "validation" / "rotors" / "caradonna-tung.toml"
@@ -99,7 +98,7 @@ def isolated_rotor() -> str:
     wind = {"speed": "80 kt", "shaft_angle": "-5 deg"}
     rows, by_numpy = [], naive()
     for evaluation in ("pece", "pec"):
-        inflow = configured("uh60a", "time-marching", options | {"evaluation": evaluation}, wind | {"climb": "0 m/s"})
+        inflow = wf.TimeMarchingWake(**options, evaluation=evaluation)
         start = wf.tunnel("uh60a", collective="14 deg", inflow=inflow, revolutions=1, **wind).solution
         march = MarchingExchange(start.model, start.wake)
         before, begun, busy = march.segment_evaluations, time.perf_counter(), time.process_time()
@@ -145,15 +144,13 @@ def caradonna_tung() -> str:
     """Hover at 8 degrees and 1250 rpm from nothing on one thread, until the steadiness asked for."""
     _core.set_threads(1)
     rows, by_numpy = [], naive()
-    hover = {"speed": "0 m/s", "shaft_angle": "0 deg", "climb": "0 m/s"}
-    for name, options in (
-        ("relaxation", {}),
-        ("relaxation", {"tip_strength": "max", "inboard_wake": "sheet"}),
-        ("time-marching", {}),
+    for kind, options in (
+        (wf.RelaxationWake, {}),
+        (wf.RelaxationWake, {"tip_strength": "max", "inboard_wake": "sheet"}),
+        (wf.TimeMarchingWake, {}),
     ):
         begun, busy = time.perf_counter(), time.process_time()
-        inflow = configured(CARADONNA_TUNG, name, options, hover)
-        run = wf.tunnel(CARADONNA_TUNG, collective="8 deg", rpm=1250, inflow=inflow)
+        run = wf.tunnel(CARADONNA_TUNG, collective="8 deg", rpm=1250, inflow=kind(**options))
         wall, busy = time.perf_counter() - begun, time.process_time() - busy
         solved = run.solution
         evaluations = solved.wake.relaxation.segment_evaluations
@@ -162,7 +159,7 @@ def caradonna_tung() -> str:
         thrust = [turn.passages["aero_force"][..., 2].sum(axis=1).mean() for turn in solved.revolutions][-4:]
         spread = f"{np.ptp(thrust) / np.mean(thrust):.1%} over the last four revolutions" if thrust else "converged"
         steady = spread if thrust or solved.settled else "not converged"
-        setting = ", ".join([name, *map(str, options.values())])
+        setting = ", ".join([kind.name, *map(str, options.values())])
         cells = [f"{wall:.2f}", f"{busy:.2f}", f"{run.ct:.5f}", steady, f"{evaluations:.2g}"]
         rows.append([setting, *cells, f"{by_numpy * evaluations:.0f}"])
     _core.set_threads(os.cpu_count() or 1)

@@ -7,11 +7,8 @@ shown beside it, never instead of it.
 from functools import cache
 
 import wakeflight as wf
-from wakeflight.tunnel import configured
 
 DEFAULT = "default: one tip vortex of the equivalent strength"
-
-HOVER = {"speed": "0 m/s", "shaft_angle": "0 deg", "climb": "0 m/s"}
 
 HOVER_WAKES = {
     DEFAULT: {},
@@ -29,8 +26,7 @@ def hover(rotor, wake=DEFAULT, **arguments):
     """Rotor in hover with a relaxation wake of one of `HOVER_WAKES`."""
     options = dict(HOVER_WAKES[wake])
     blade_model = options.pop("blade_model", "lifting-line")
-    model = configured(rotor, "relaxation", options, HOVER)
-    return wf.tunnel(rotor, inflow=model, blade_model=blade_model, **arguments)
+    return wf.tunnel(rotor, inflow=wf.RelaxationWake(**options), blade_model=blade_model, **arguments)
 
 
 FULL_SPAN = "full-span wake, means in time, second-order lifting line"
@@ -40,7 +36,7 @@ FULL_SPAN = "full-span wake, means in time, second-order lifting line"
 @cache
 def full_span_hover(rotor, collective, rpm):
     """Rotor in hover with a marching full-span wake: means of revolutions 7 to 18."""
-    wake = wf.TimeMarchingWake(trailers="full-span", n_trailers=10, azimuth_step="15 deg", turns=10)
+    wake = wf.TimeMarchingWake(trailers="full-span", n_trailers=10, azimuth_step="15 deg", turns=10, far_wake_turns=0)
     return wf.tunnel(
         rotor,
         collective=collective,

@@ -5,7 +5,6 @@ it, never instead of it.
 """
 
 import wakeflight as wf
-from wakeflight.tunnel import configured
 
 DEFAULT = "default: one tip vortex of the equivalent strength"
 SHEET = "tip vortex of the largest circulation, inboard sheet"
@@ -22,10 +21,9 @@ WAKES = {
 
 def wind(rotor, wake=DEFAULT, *, speed, shaft_angle, options=None, **arguments):
     """Rotor in a wind from the front with a relaxation wake of one of `WAKES`, the wake `MARCHED`, or dynamic inflow (None)."""
-    condition = {"speed": speed, "shaft_angle": shaft_angle, "climb": "0 m/s"}
     if wake is None:
         inflow = "dynamic"
     else:
-        kind = "time-marching" if wake == MARCHED else "relaxation"
-        inflow = configured(rotor, kind, {**WAKES.get(wake, {}), **(options or {})}, condition)
+        kind = wf.TimeMarchingWake if wake == MARCHED else wf.RelaxationWake
+        inflow = kind(**WAKES.get(wake, {}), **(options or {}))
     return wf.tunnel(rotor, inflow=inflow, speed=speed, shaft_angle=shaft_angle, **arguments)

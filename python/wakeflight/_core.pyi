@@ -31,8 +31,9 @@ class TrimProblem:
         speed: float,
         flight_path: float,
         turn_rate: float,
-        convention: str,
-        angle: float,
+        bank: float,
+        sideslip: float,
+        bank_share: float,
         n_harmonics: int,
         n_azimuths: int,
         inflow: _Array | None,
@@ -307,6 +308,7 @@ class MarchingExchange:
         index: int,
         motion: tuple[_Array, _Array] | None = None,
     ) -> tuple[float, float, float, int]: ...
+    def set_mean_inflow(self, mean_inflow: float) -> None: ...
     def snapshot(self) -> TimeMarchingWake: ...
     def copy(self) -> MarchingExchange: ...
     def inflow(self) -> _Array: ...

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 import sys
+from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -15,6 +16,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from .errors import InputError, NumericalFailure, WakeflightError, one_line
+from .regime import described
 
 if TYPE_CHECKING:
     from .aircraft import Aircraft
@@ -22,6 +24,7 @@ if TYPE_CHECKING:
     from .inflow import InflowModel
     from .maneuvers import Maneuver
     from .progress import Progress
+    from .tunnel.model import StandInflow
 
 app = typer.Typer(
     add_completion=False,
@@ -47,7 +50,7 @@ TurnRate = Annotated[str | None, typer.Option("--turn-rate", help='to the right 
 Bank = Annotated[str | None, typer.Option("--bank", help='to the right +, "10 deg"')]
 Revolutions = Annotated[float | None, typer.Option("--revolutions", help="revolutions to fly; the manoeuvre's own")]
 AzimuthStep = Annotated[str | None, typer.Option("--azimuth-step", help='divides 360 deg / blades, "10 deg"')]
-WakeTurns = Annotated[float | None, typer.Option("--wake-turns", help="length of the free filaments")]
+WakeTurns = Annotated[float | None, typer.Option("--wake-turns", help=f"turns of free wake; {described('turns')}")]
 WakeScheme = Annotated[str | None, typer.Option("--wake-scheme", help="bdf2, pc2b, pcc")]
 Integrator = Annotated[str, typer.Option("--integrator", help="ida, fixed")]
 Blades = Annotated[str | None, typer.Option("--blades", help="rigid, flexible; the aircraft's own")]
@@ -183,12 +186,11 @@ def trim(
     from .progress import Progress
     from .trim import trim as solve
 
+    solve = _keeping(solve, lambda found: _save_trim(found, request.out))
     with Progress() as progress:
         start = solve(request.aircraft, request.condition, inflow=request.inflow, progress=progress)
     print(start.table())
-    path = _folder(request.out) / "trim.nc"
-    start.to_dataset().to_netcdf(path, engine="h5netcdf")
-    print(f"wrote {path}")
+    _save_trim(start, request.out)
 
 
 @app.command()
@@ -241,9 +243,6 @@ def report(
     print(f"wrote {folder / 'report.html'}")
 
 
-_STILL = {"speed": "0 kt", "shaft_angle": "0 deg", "climb": "0 m/s"}
-
-
 @app.command()
 def converge(
     run: Annotated[str, typer.Argument(metavar="RUN", help="trim, modes, tunnel, or a manoeuvre as for fly")],
@@ -289,17 +288,15 @@ def converge(
     base: dict[str, Any]
     if run == "tunnel":
         from .aircraft import load_rotor
-        from .tunnel import configured
+        from .tunnel import stand_inflow
 
         _set_threads(threads)
         known = {name: given.pop(name) for name in ("speed", "altitude") if name in given}
         if given:
             raise InputError.of(next(iter(given)), next(iter(given.values())), "not an option of a rotor on a stand")
         stand |= known
-        options = {name: value for name, value in wake.items() if value is not None}
-        model = configured(rotor or aircraft, inflow, options, _STILL | stand)
         flown: Any = load_rotor(rotor or aircraft)
-        base = {"inflow": model, "stand": stand}
+        base = {"inflow": _configured(stand_inflow(inflow), wake, False), "stand": stand}
         _writable(folder)
     else:
         if stand or rotor:
@@ -418,13 +415,13 @@ def tunnel(
     folder = _writable(out or Path("runs/tunnel"))
     from .plotting import tunnel as drawing
     from .progress import Progress
-    from .tunnel import configured
+    from .results import save
+    from .tunnel import stand_inflow
     from .tunnel import tunnel as solve
 
+    solve = _keeping(solve, lambda stand: stand.save(_folder(folder) / "tunnel.nc"))
     wake = {"azimuth_step": azimuth_step, "turns": wake_turns, "scheme": wake_scheme}
-    given = {name: value for name, value in wake.items() if value is not None}
-    conditions = {"speed": speed, "shaft_angle": shaft_angle, "climb": climb, "omega": omega}
-    model = configured(rotor or aircraft, inflow, given, conditions) if given else inflow
+    model = _configured(stand_inflow(inflow), wake, False)
     pair = [each.strip() for each in flapping.split(",")] if flapping and "," in flapping else flapping
     if bool(then) != (duration is not None):
         raise InputError.of("--then, --duration", then or duration, "one needs the other")
@@ -433,7 +430,11 @@ def tunnel(
         result = solve(
             rotor or aircraft,
             collective,
-            inflow=model,
+            speed,
+            shaft_angle,
+            model,
+            climb=climb,
+            omega=omega,
             collective_at=collective_at,
             lateral_cyclic=lateral_cyclic,
             longitudinal_cyclic=longitudinal_cyclic,
@@ -452,15 +453,13 @@ def tunnel(
             revolutions=revolutions,
             averaged=averaged,
             progress=progress,
-            **conditions,
         )
         print(result.table())
         result.save(_folder(folder) / "tunnel.nc")
         written = [folder / "tunnel.nc", *drawing.write(result.data, folder)]
         if duration is not None:
-            from .results import save
-
-            data = result.transient(moved, duration, progress)
+            followed = _keeping(result.transient, lambda data: save(data, folder / "transient.nc"))
+            data = followed(moved, duration, progress)
             written += [save(data, folder / "transient.nc"), drawing.write_transient(data, folder)]
     print(f"wrote {folder / 'tunnel.nc'}, {', '.join(each.name for each in written[1:])}")
 
@@ -564,6 +563,7 @@ def _request(
     from .condition import condition_for
     from .inflow import inflow_model
     from .maneuvers import load_maneuver
+    from .model import flight_regime
 
     _set_threads(threads)
     flown = load_maneuver(maneuver) if maneuver is not None else None
@@ -579,7 +579,7 @@ def _request(
     loaded.core_data(complete)
     model.step(loaded)
     if hasattr(model, "core_options"):
-        model.core_options(loaded)
+        model.resolved(flight_regime(loaded, complete)).core_options(loaded)
     if flown is not None:
         flown = flown.for_aircraft(loaded.stick_travel_in, float(loaded.rotor.omega))
         flown.check_span(loaded.stick_travel_in)
@@ -587,7 +587,7 @@ def _request(
     return _Request(loaded, complete, model, folder, flown)
 
 
-def _configured(model: InflowModel, wake: dict[str, Any], lenient: bool) -> InflowModel:
+def _configured(model: StandInflow, wake: dict[str, Any], lenient: bool) -> Any:
     """`model` with the wake options that were typed."""
     known = {field.name for field in fields(model)}
     options = {name: value for name, value in wake.items() if value is not None}
@@ -661,6 +661,27 @@ def _pace(data: Any) -> str:
         f"flew {flown:.2f} s in {taken:.3g} s, {flown / taken:.3g} times as fast as time: wake {wake:.3g} s, flight dynamics "
         f"{dynamics:.3g} s by {data.attrs['integration_method']}, {data.attrs['blades']} blades"
     )
+
+
+def _keeping(verb: Callable[..., Any], save: Callable[[Any], Any]) -> Callable[..., Any]:
+    """`verb`, with what it had computed saved where it ends in a numerical failure."""
+
+    def kept(*arguments: Any, **named: Any) -> Any:
+        try:
+            return verb(*arguments, **named)
+        except NumericalFailure as failure:
+            if failure.partial is not None:
+                save(failure.partial)
+            raise
+
+    return kept
+
+
+def _save_trim(start: Any, out: Path) -> None:
+    """Write trim.nc."""
+    path = _folder(out) / "trim.nc"
+    start.to_dataset().to_netcdf(path, engine="h5netcdf")
+    print(f"wrote {path}")
 
 
 def _save(flight: Any, out: Path, progress: Progress) -> None:

@@ -41,6 +41,7 @@ class MarchingExchange:
         )
         # inflow at the latest passage of every azimuth, and the map held where it is renewed less often than every step
         self.passages = trimmed.inflow_map.copy()
+        self.passed_circulation = trimmed.circulation.copy()
         interval = getattr(model.inflow, "update_interval", None)
         self.update_steps = None if interval is None else round(interval / (2 * np.pi) * self.n)
         self._held_map: np.ndarray | None = None
@@ -53,6 +54,7 @@ class MarchingExchange:
         other = copy(self)
         other.core = self.core.copy()
         other.passages = self.passages.copy()
+        other.passed_circulation = self.passed_circulation.copy()
         return other
 
     def rows(self, step: int) -> list[int]:
@@ -60,12 +62,13 @@ class MarchingExchange:
         return [(step + b * self.n // self.model.n_blades) % self.n for b in range(self.model.n_blades)]
 
     def held(self, step: int) -> tuple[np.ndarray, float]:
-        """Total inflow (n_blades, n_stations) over the step that begins, and its disk mean.
+        """Total inflow (n_blades, n_stations) over the step that begins, and the mean over the disk.
 
-        With `update_interval` a map by azimuth is held from one renewal to the next, as with a relaxation wake.
+        The mean is that of the latest passage of every azimuth: over the blades' present azimuths alone it would swing by
+        n per revolution. With `update_interval` a map by azimuth is held from one renewal to the next, as with a relaxation wake.
         """
         if self.update_steps is None:
-            return self.inflow, self.model.disk_mean(self.inflow)
+            return self.inflow, self.model.disk_mean(self.passages)
         if self._held_map is None or step % self.update_steps == 0:
             self._held_map = self.passages.copy()
         rows = 0.5 * (self._held_map[self.rows(step)] + self._held_map[self.rows(step + 1)])
@@ -84,6 +87,8 @@ class MarchingExchange:
         """
         self.step_index += 1
         rows = self.rows(self.step_index)
+        hub_velocity, _ = self.model.core.hub(y)
+        self.core.set_mean_inflow(self.model.carrying_inflow(self.passed_circulation, hub_velocity))
         displacement, odd_even, distance, followed = self.core.advance(
             self.model.core, y, stick, stick_rate, rows[0], motion
         )
@@ -99,6 +104,7 @@ class MarchingExchange:
             self.core.inflow(),
         )
         self.passages[rows] = self.inflow
+        self.passed_circulation[rows] = self.circulation
         return self.inflow
 
     def frozen_step(self, problem: _core.TrimProblem, x: np.ndarray) -> tuple[list[int], np.ndarray, np.ndarray]:

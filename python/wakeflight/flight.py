@@ -23,7 +23,8 @@ from .exchange import MarchingExchange, RelaxationExchange
 from .inflow import DynamicInflow, InflowModel, RelaxationWake, TimeMarchingWake, inflow_model, like, trim_model
 from .integrators import INTEGRATORS
 from .maneuvers import ROUNDING, Maneuver
-from .model import Model
+from .model import Model, flight_regime
+from .monitors import warnings as monitored
 from .progress import Progress, Silent
 from .recorder import Recorder
 from .thinning import thinned
@@ -176,10 +177,11 @@ def fly(
     rtol: relative tolerance of the solver, its absolute ones go with it.
     stabilator: `held` at its trim incidence, or `scheduled`, following its schedule within the rate of its servo.
 
-    inflow: name or model, by default time-marching from a trim on a free wake, dynamic from a dynamic one. revolutions:
-    flown ones, by default the manoeuvre's. A manoeuvre written for another travel or rotor speed is flown as
-    `Maneuver.for_aircraft` makes it; the Flight holds it as flown. A numerical failure raises `NumericalFailure` whose
-    `partial` is the Flight so far.
+    inflow: name or model, by default time-marching from a trim on a free wake, dynamic from a dynamic one. Wake options that
+    depend on the regime (turns kept, far wake, relaxation) stay those of the trimmed condition for the whole flight, whatever
+    regime it leads into. revolutions: flown ones, by default the manoeuvre's. A manoeuvre written for another travel or rotor
+    speed is flown as `Maneuver.for_aircraft` makes it; the Flight holds it as flown. A numerical failure raises
+    `NumericalFailure` whose `partial` is the Flight so far.
     """
     progress = progress or Silent()
     begun = time.perf_counter()
@@ -198,6 +200,7 @@ def fly(
     sticks = Sticks(maneuver, start.stick_si)
     for text in maneuver.adapted:
         progress(f"note: {text}")
+    warnings += [*start.aircraft.warnings, *(f"trim: {text}" for text in monitored(start.monitors))]
     for text in warnings:
         progress(f"warning: {text}")
 
@@ -245,7 +248,9 @@ def fly(
         revolution = (recorder.n_recorded - 1) / model.steps_per_revolution
         failure = f"flight of {maneuver.name} stopped in revolution {revolution:.2f}: {reason}"
 
-    for text in recorder.validity():
+    if recorder.n_recorded == 0:
+        raise NumericalFailure(failure)
+    for text in monitored(recorder.monitors):
         warnings.append(text)
         progress(f"warning: {text}")
     attributes = {
@@ -267,7 +272,10 @@ def fly(
 
 
 def flight_model(start: Trim, inflow: str | InflowModel | None) -> Model:
-    """Model to fly with; it must belong to what the trim was made with."""
+    """Model to fly with; it must belong to what the trim was made with.
+
+    What depends on the regime is that of the trimmed condition, and stays so where the manoeuvre leads into another.
+    """
     if inflow is None:
         inflow = "dynamic" if isinstance(start.inflow, DynamicInflow) else "time-marching"
     trimmed = start.inflow
@@ -281,7 +289,10 @@ def flight_model(start: Trim, inflow: str | InflowModel | None) -> Model:
         chosen = like(type(chosen), trimmed)
     elif isinstance(inflow, str):
         chosen = trimmed
-    before, now = trim_model(trimmed).core_options(start.aircraft), chosen.core_options(start.aircraft)
+    regime = flight_regime(start.aircraft, start.condition)
+    chosen = chosen.resolved(regime)
+    before = trim_model(trimmed).resolved(regime).core_options(start.aircraft)
+    now = chosen.core_options(start.aircraft)
     for name in sorted(set(now) - {"scheme", "predictor", "evaluation", "time_filter", "relaxation"}):
         if before[name] != now[name]:
             raise InputError.of(

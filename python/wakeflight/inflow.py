@@ -8,10 +8,11 @@ common practice for the tip vortex is `tip_strength="max"`.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING, Any, ClassVar
+from dataclasses import dataclass, fields, replace
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from .errors import InputError
+from .regime import BY_REGIME, resolved
 from .units import quantity
 
 if TYPE_CHECKING:
@@ -96,6 +97,11 @@ class _Inflow:
         check_azimuth_step(step, int(aircraft.rotor.n_blades))
         return step
 
+    def resolved(self, regime: str) -> Self:
+        """This model with the number of `regime` for every option left to it; what was given stays."""
+        found = resolved({field.name: getattr(self, field.name) for field in fields(self)}, regime)
+        return replace(self, **found) if found else self
+
     def as_attributes(self) -> dict[str, Any]:
         """Options by name, angles [rad], for the attributes of a result."""
         return {field.name: getattr(self, field.name) for field in fields(self)}
@@ -103,10 +109,14 @@ class _Inflow:
 
 @dataclass(frozen=True)
 class _Wake(_Inflow):
-    """Options common to both free wakes; lengths over the radius or the chord, angles [rad] once made."""
+    """Options common to both free wakes; lengths over the radius or the chord, angles [rad] once made.
 
-    turns: float = 4.0
-    """Length of the free filaments in turns."""
+    Options that are None "by regime" take the number of the rotor's regime (`wakeflight.regime`) where the model meets a
+    condition: in trim, flight and on the stand alike. A number given is never replaced.
+    """
+
+    turns: float | None = None
+    """Length of the free filaments in turns; by regime: 4 forward, 5 hover and climb, 8 axial descent."""
     azimuth_step: Any = None
     """Step of azimuth and of wake age; None is the aircraft's (10 deg)."""
     form: str = "displacement"
@@ -127,8 +137,8 @@ class _Wake(_Inflow):
     """Nothing, or a sheet of rigid helical filaments that closes the tip vortex inboard."""
     n_sheet: int = 4
     """Filaments per blade of the sheet."""
-    sheet_factor: float = 1.0
-    """Multiple of the momentum inflow that carries the sheet down: 1 in forward flight, 1.4 in hover."""
+    sheet_factor: float | None = None
+    """Multiple of the momentum inflow that carries the sheet down; by regime: 1 forward, 1.4 hover and climb, 1 axial descent."""
     core_radius: float = 0.02
     """Core radius at release over the rotor radius."""
     core_growth: float = 3e-4
@@ -150,8 +160,9 @@ class _Wake(_Inflow):
     far_wake: str = "repeat"
     """What goes on behind the free filaments: repeats of the last turn, or, for tip vortices alone in hover and climb, a
     semi-infinite vortex cylinder (`cylinder`) [branlard2014]."""
-    far_wake_turns: int = 0
-    """Repeats of the last turn beyond the free filaments: 2 in hover."""
+    far_wake_turns: int | None = None
+    """Repeats of the last turn beyond the free filaments; by regime: 0 forward, 2 hover and climb, 0 axial descent; none where a
+    `cylinder` closes the wake."""
     release_radius: float = 1.0
     """Where the tip vortex leaves the blade, over the radius."""
     n_stations: int = 20
@@ -195,8 +206,12 @@ class _Wake(_Inflow):
     def core_options(self, aircraft: Aircraft) -> dict[str, Any]:
         """Options as the physics core reads them: those of this model, and this aircraft's rotor in SI.
 
-        core_radius and release_radius stay over R, bound_core and station_core_floor over the chord.
+        core_radius and release_radius stay over R, bound_core and station_core_floor over the chord. What depends on the regime
+        must be known: see `resolved`.
         """
+        for name in BY_REGIME:
+            if getattr(self, name, 0.0) is None:
+                raise InputError.of(name, None, "must be a number here: take the model's `resolved(regime)`")
         step = self.step(aircraft)
         self.update_steps(aircraft)
         steps = round(2.0 * math.pi / step)
@@ -249,7 +264,7 @@ class _Wake(_Inflow):
             "far_wake": self.far_wake,
             "far_wake_turns": self.far_wake_turns,
             "release_radius": float(self.release_radius),
-            "relaxation": float(getattr(self, "relaxation", 0.5)),
+            "relaxation": float(getattr(self, "relaxation", BY_REGIME["relaxation"]["forward"])),
         }
 
 
@@ -257,8 +272,8 @@ class _Wake(_Inflow):
 class RelaxationWake(_Wake):
     """Free wake made periodic by relaxation [bagai1995]; in flight renewed once per revolution, or as asked."""
 
-    relaxation: float = 0.5
-    """Share of a new geometry taken in each sweep: 0.3 in hover."""
+    relaxation: float | None = None
+    """Share of a new geometry taken in each sweep; by regime: 0.5 forward, 0.3 hover and climb, 0.3 axial descent."""
     sweeps: int = 2
     """Sweeps in each iteration of inflow and circulation."""
     inflow_relaxation: float = 0.7
@@ -409,6 +424,8 @@ def _check_options(model: InflowModel) -> None:
         elif name in _CHOICES:
             if value not in _CHOICES[name]:
                 raise InputError.of(name, value, f"allowed: {', '.join(_CHOICES[name])}")
+        elif name in BY_REGIME and value is None:
+            continue
         elif name in _RANGES:
             low, high = _RANGES[name]
             kind = int if name in _WHOLE else (int, float)

@@ -13,7 +13,8 @@ import numpy as np
 from . import _core
 from .aircraft import Aircraft
 from .condition import FlightCondition
-from .inflow import DynamicInflow, InflowModel
+from .inflow import DynamicInflow, InflowModel, RelaxationWake, TimeMarchingWake
+from .monitors import Bounds, bounds
 from .units import STANDARD_GRAVITY
 
 
@@ -23,6 +24,7 @@ class CompiledRotor:
     aircraft: Any
     inflow: InflowModel
     core: Any
+    speed_of_sound: float
     n_controls: ClassVar[int]
     """How many controls stand at the head of the unknowns."""
 
@@ -67,9 +69,45 @@ class CompiledRotor:
         """Options of the free wake as the core reads them (JSON)."""
         return json.dumps(self.inflow.core_options(self.aircraft))
 
+    @property
+    def rotor_tables(self) -> dict[str, Any]:
+        """Blade and airfoil as the core was given them."""
+        raise NotImplementedError
+
+    @property
+    def has_thin_sections(self) -> bool:
+        """Whether the blades lift as thin sections without stall instead of by their tables."""
+        return False
+
+    @cached_property
+    def bounds(self) -> Bounds:
+        """What the motion of this rotor can give at most; without a wake its vortices have the cores of a default one."""
+        wake = self.inflow if isinstance(self.inflow, RelaxationWake | TimeMarchingWake) else RelaxationWake()
+        return bounds(self.rotor, self.rotor_tables, self.speed_of_sound, wake, self.has_thin_sections)
+
     def disk_mean(self, inflow: np.ndarray) -> float:
         """Area mean of an inflow map (..., n_stations)."""
         return float(np.mean(inflow @ self.area_weights))
+
+    def carrying_inflow(self, circulation: np.ndarray, hub_velocity: np.ndarray) -> float:
+        """Inflow of momentum theory for the thrust of a circulation map (n_azimuths, n_stations) [m2/s]: it carries the sheet.
+
+        Thrust by Kutta-Joukowski from the speed along the chord of a blade without flapping, Omega r + V sin psi; hub velocity
+        [m/s] in hub axes.
+        """
+        psi = 2 * np.pi * np.arange(circulation.shape[0]) / circulation.shape[0]
+        across = hub_velocity[1] * np.cos(psi) - hub_velocity[0] * np.sin(psi)
+        widths = np.asarray(self.rotor["widths"])
+        lift = circulation @ (self.omega * self.stations * widths) + across * (circulation @ widths)
+        disk = np.pi * self.rotor["radius"] ** 2 * self.tip_speed**2
+        ct = self.n_blades * float(np.mean(lift)) / disk
+        mu = np.hypot(hub_velocity[0], hub_velocity[1]) / self.tip_speed
+        return _core.momentum_inflow(ct, float(mu * mu), float(-hub_velocity[2] / self.tip_speed), False)
+
+
+def flight_regime(aircraft: Aircraft, condition: FlightCondition) -> str:
+    """Regime of the main rotor in a flight condition, known before the trim: see `FlightCondition.regime`."""
+    return condition.regime(float(aircraft.rotor.omega) * float(aircraft.rotor.radius))
 
 
 @dataclass(frozen=True)
@@ -87,10 +125,14 @@ class Model(CompiledRotor):
 
     @classmethod
     def build(cls, aircraft: Aircraft, condition: FlightCondition, inflow: InflowModel) -> Model:
-        """Compile; the tip loss is off and the inflow states are out of y with a free wake."""
+        """Compile; the tip loss is off and the inflow states are out of y with a free wake.
+
+        Options of the wake that depend on the regime take the numbers of the condition's.
+        """
         density, speed_of_sound, _ = _core.standard_atmosphere(condition.altitude)
         data = aircraft.core_data(condition)
         d = aircraft.discretisation
+        inflow = inflow.resolved(flight_regime(aircraft, condition))
         inflow.step(aircraft)
         core = _core.Aircraft(
             json.dumps(data),
@@ -105,6 +147,11 @@ class Model(CompiledRotor):
             d.reference_pitch,
         )
         return cls(aircraft, condition, inflow, core, data, density, speed_of_sound)
+
+    @property
+    def rotor_tables(self) -> dict[str, Any]:
+        """Blade and airfoil as the core was given them."""
+        return self.data["rotor"]
 
     def linearised(self) -> _core.Linearised:
         """Room for the derivatives of F."""

@@ -4,14 +4,17 @@
 from __future__ import annotations
 
 import math
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from . import _core
+from .flight_monitors import check_sample, monitors
 from .inflow import DynamicInflow
 from .maneuvers import Maneuver
 from .model import Model
+from .monitors import Monitor, variables
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -20,8 +23,6 @@ if TYPE_CHECKING:
     from .trim import Trim
 
 SNAPSHOTS_PER_REVOLUTION = 4
-LARGE_DISPLACEMENT = 0.25
-"""Motion of a wake node in a step over R from which a run says so: half of what the wake refuses."""
 LARGEST_SHEET = 5_000_000  # numbers; larger lattices of full-span wakes are not kept
 STATION_FIELDS = ("inflow", "circulation", "cl", "cl_m2", "alpha", "mach")
 
@@ -80,6 +81,7 @@ class Recorder:
         self.azimuth[step] = out["azimuth"]
         for name, values in self.blade.items():
             values[step] = out[name]
+        check_sample(self.model, t, y, stick, self.azimuth[step], self.blade["inflow"][step], self.blade["mach"][step])
         for name, values in self.loads.items():
             values[step] = out[name]
         for name in ("ct", "beta_1c", "beta_1s"):
@@ -137,20 +139,13 @@ class Recorder:
             arrays |= dict(zip((f"{kind}_x", f"{kind}_y", f"{kind}_z"), self.loads[kind][:n].T, strict=True))
         arrays |= {name: values[:n] for name, values in self.blade.items()}
         arrays |= {name: values[:n] for name, values in self.scalars.items() if name != "load_power"}
-        if not np.any(np.isfinite(arrays["vortex_blade_distance"])):
-            del arrays["vortex_blade_distance"]
-        elif np.isnan(arrays["vortex_blade_distance"][0]):
-            # without a convergence phase the wake has not been stepped yet: the first step's stands for the start
-            late = arrays["vortex_blade_distance"][1:]
-            arrays["vortex_blade_distance"] = np.concatenate([late[:1], late])
+        del arrays["vortex_blade_distance"]
         arrays["energy_balance"] = self.energy_balance()
-        alpha, mach = self.blade["alpha"][:n], self.blade["mach"][:n]
-        arrays |= {"alpha_min": alpha.min(axis=(1, 2)), "alpha_max": alpha.max(axis=(1, 2))}
-        arrays["mach_max"] = mach.max(axis=(1, 2))
+        arrays |= variables(self.monitors)
         arrays |= {name: values[:n] for name, values in self.blade_angles.items()}
         if not isinstance(model.inflow, DynamicInflow):
             arrays |= self._wake_arrays(phase)
-        counted = self._counters()
+        counted = self.counters()
         return assemble(
             arrays,
             {
@@ -158,7 +153,7 @@ class Recorder:
                 **attributes,
                 **counted,
                 **convergence_attributes(phase),
-                "warnings": "; ".join(warnings),
+                "warnings": "\n".join(warnings),
                 "failure": failure or "",
             },
         )
@@ -174,27 +169,20 @@ class Recorder:
         work = np.concatenate([[0.0], np.cumsum(0.5 * (power[1:] + power[:-1]) * np.diff(time))])
         return energy - energy[0] - work
 
-    def validity(self) -> list[str]:
-        """Where the run left the range its models hold for, once for each."""
-        n, model = self.n_recorded, self.model
-        found = []
-        tables = model.data["rotor"]["airfoil"]
-        limit = min(tables[name]["y"][-1] for name in ("cl", "cd", "cm"))
-        mach = self.blade["mach"][:n].max(axis=(1, 2))
-        if mach.max() > limit:
-            first = self.time[:n][mach > limit][0]
-            found.append(
-                f"Mach number up to {mach.max():.2f}, beyond the {limit:g} of the section tables (held there), "
-                f"from t = {first:.2f} s"
-            )
-        step = self.scalars["max_displacement"][:n] / model.rotor["radius"]
-        if step.max() > LARGE_DISPLACEMENT:
-            first = self.time[:n][step > LARGE_DISPLACEMENT][0]
-            found.append(
-                f"wake nodes moved up to {step.max():.2f} R in a step, more than {LARGE_DISPLACEMENT:g} R: the azimuth step is "
-                f"too coarse for this wake, from t = {first:.2f} s"
-            )
-        return found
+    def vortex_distance(self) -> np.ndarray | None:
+        """Smallest distance of a tip vortex from a blade (time,), in core radii; None where the wake does not tell it."""
+        distance = self.scalars["vortex_blade_distance"][: self.n_recorded].copy()
+        if not np.isfinite(distance[1:]).any():
+            return None
+        if np.isnan(distance[0]):
+            # without a convergence phase the wake has not been stepped yet: the first step's stands for the start
+            distance[0] = distance[1]
+        return distance
+
+    @cached_property
+    def monitors(self) -> tuple[Monitor, ...]:
+        """What is watched of the whole flight, asked for when it has ended."""
+        return monitors(self)
 
     def _modal(self, y: np.ndarray) -> np.ndarray:
         """Modal coordinates (time, blade, mode) as fractions of the tip deflection: angle of the tip in the mode [rad]."""
@@ -222,7 +210,8 @@ class Recorder:
             arrays["inflow_before"], arrays["inflow_start"] = phase.before, phase.after
         return arrays
 
-    def _counters(self) -> dict[str, int]:
+    def counters(self) -> dict[str, int]:
+        """What the wake has counted so far."""
         wake = getattr(self.source, "wake", None)
         if wake is None:
             return {}

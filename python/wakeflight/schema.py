@@ -35,6 +35,20 @@ BLADE = ("time", "blade")
 STATION = ("time", "blade", "station")
 DISK = ("azimuth", "station")
 
+WATCHED = (
+    ("inflow_max", "1", "largest induced inflow v_i/(Omega R) at any station, without its sign"),
+    ("inflow_bound", "1", "largest induced inflow that momentum and vortices of the largest lift can give"),
+    ("mach_max", "1", "largest section Mach number of all blades"),
+    ("mach_bound", "1", "largest section Mach number that the blades' motion and the wind can give"),
+    ("alpha_min", "rad", "smallest section angle of attack of all blades"),
+    ("alpha_max", "rad", "largest section angle of attack of all blades"),
+    ("stalled_share", "1", "share of the disk beyond the stall angle, over a passage of the blades"),
+    ("reversed_share", "1", "share of the disk in reversed flow, over a passage of the blades"),
+    ("mu_z", "1", "speed of the hub down the shaft over tip speed, descent positive"),
+    ("hover_inflow", "1", "induced inflow of hover at this thrust, sqrt(|C_T|/2)"),
+)
+"""Monitors that trim, stand and flight have alike."""
+
 COORDINATES: dict[str, Variable] = {
     variable.name: variable
     for variable in (
@@ -138,12 +152,12 @@ RUN: tuple[Variable, ...] = (
         ("stabilator", "rad", "stabilator incidence, nose up positive"),
         ("odd_even", "1", "odd-even content of the wake in time: RMS second difference of its nodes, share of R"),
         ("max_displacement", "m", "largest displacement of a wake node in the step"),
+        ("stick_margin", "in", "smallest distance of a stick from its stops, negative beyond one"),
+        ("height", "m", "height of the body origin above sea level, or above its start where that is lower"),
+        *WATCHED,
         ("energy", "J", "kinetic and potential energy of the airframe without blades, height from the start"),
         ("energy_balance", "J", "change of that energy less the work of all loads on the airframe but gravity"),
         ("vortex_blade_distance", "1", "smallest distance of a tip vortex from a blade, in core radii"),
-        ("alpha_min", "rad", "smallest section angle of attack of all blades"),
-        ("alpha_max", "rad", "largest section angle of attack of all blades"),
-        ("mach_max", "1", "largest section Mach number of all blades"),
         optional=True,
     ),
     *_rows(
@@ -196,6 +210,10 @@ TRIM: tuple[Variable, ...] = (
         ("power_tail", "W", "tail rotor power"),
         ("stabilator", "rad", "stabilator incidence, nose up positive"),
         ("inflow_mean", "1", "disk mean of the induced inflow v_i/(Omega R), positive down"),
+        ("stick_margin", "in", "smallest distance of a stick from its stops, negative beyond one"),
+        ("sideslip", "rad", "sideslip of the body velocity, atan2(v, u), wind from the right positive"),
+        ("vortex_blade_distance", "1", "smallest distance of a tip vortex from a blade, in core radii"),
+        *WATCHED,
         optional=True,
     ),
     *_rows(("xyz",), ("velocity_b", "m/s", "body velocity"), ("rates_b", "rad/s", "body rates"), optional=True),
@@ -287,6 +305,13 @@ TUNNEL: tuple[Variable, ...] = (
         ("tip_flap", "m", "flap displacement of the tip from the preconed undeflected blade, up positive"),
         ("tip_lead", "m", "lead displacement of the tip, forward positive"),
         ("tip_twist", "rad", "elastic twist and pitch-flap coupling at the tip, nose up positive"),
+    ),
+    *_rows(
+        (),
+        ("vortex_blade_distance", "1", "smallest distance of a tip vortex from a blade, in core radii"),
+        ("max_displacement", "m", "largest displacement of a wake node in a step of the revolutions averaged"),
+        *(each for each in WATCHED if each[0] != "mu_z"),
+        optional=True,
     ),
     *_rows(
         REVOLUTION,
@@ -389,5 +414,5 @@ ATTRIBUTES: tuple[Attribute, ...] = (
     Attribute("segment_evaluations_trim", "wake segment evaluations: trim"),
     Attribute("segment_evaluations_convergence", "wake segment evaluations: convergence phase"),
     Attribute("relaxation_iterations_trim", "relaxation iterations: trim"),
-    Attribute("warnings", "warnings"),
+    Attribute("warnings", "warnings, one a line"),
 )

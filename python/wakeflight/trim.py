@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -15,16 +16,12 @@ from .condition import FlightCondition, condition_for
 from .errors import NumericalFailure
 from .inflow import DynamicInflow, InflowModel, TimeMarchingWake, inflow_model, trim_model
 from .model import Model
+from .monitors import Monitor, failures, warnings
 from .progress import Progress, Silent
-from .units import STANDARD_GRAVITY
-from .wake_trim import WakeInTrim, marching_map
-
-INCH = 0.0254
-LINEAR_TOLERANCE = 1e-4  # m/s2
-ANGULAR_TOLERANCE = 1e-4  # rad/s2
-HARMONIC_TOLERANCE = 1e-6  # rad, equivalent angle of a blade harmonic
-CONTROL_TOLERANCE = 1e-3  # rad, change of a pitch control between trims on a free wake
-MAX_OUTER = 30  # the last passes halve the change of the controls
+from .trim_equations import INCH, dynamic_map, residual_norms
+from .trim_solve import solve_condition
+from .trim_wake import CONTROL_TOLERANCE, on_marching, on_relaxation
+from .wake_trim import WakeInTrim
 
 
 @dataclass(frozen=True)
@@ -120,6 +117,23 @@ class Trim:
         """Incidence of the stabilator, trailing edge down positive [rad]."""
         return self.model.core.trim_stabilator(self.problem, self.x)
 
+    @cached_property
+    def monitors(self) -> tuple[Monitor, ...]:
+        """What is watched of this trim, each with its values and what it says."""
+        from .trim_monitors import monitors
+
+        return monitors(self)
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What is doubtful in the aircraft's data, and what lies beyond a limit of aircraft or model."""
+        return (*self.aircraft.warnings, *warnings(self.monitors))
+
+    @property
+    def failures(self) -> tuple[str, ...]:
+        """What lies beyond physics: a trim that has any is raised in a `NumericalFailure`, not returned."""
+        return failures(self.monitors)
+
     def state(self, t: float = 0.0) -> np.ndarray:
         """State y of the trimmed revolution at time `t` [s]."""
         return self.model.core.trim_state(self.problem, self.x, t)[0]
@@ -160,7 +174,8 @@ def trim(
     n_harmonics: harmonics of the blades' periodic motion. control_tolerance: change of a pitch control [rad] between trims on a
     free wake at which they rest.
 
-    Raises `InputError` for bad input and `NumericalFailure`, naming the equation that is not met, where no trim is found.
+    Raises `InputError` for bad input and `NumericalFailure`, saying what limits, where no trim is found; also where what was
+    found is beyond physics, with the trim as `partial`. What is beyond a limit of aircraft or model stands in `.warnings`.
     """
     progress = progress or Silent()
     started = time.perf_counter()
@@ -172,12 +187,11 @@ def trim(
     # dynamic inflow first: the result itself, or the start of the free wake
     dynamic = chosen if isinstance(chosen, DynamicInflow) else DynamicInflow(n_stations=chosen.n_stations)
     simple = Model.build(aircraft, condition, dynamic)
-    problem = trim_problem(simple, None, n_harmonics)
-    x = solve(simple, problem, first_guess(simple, problem))
+    problem, x = solve_condition(simple, n_harmonics)
     progress.advance(1, "dynamic inflow")
     if isinstance(chosen, DynamicInflow):
         inflow_map, circulation = dynamic_map(simple, problem, x)
-        return Trim(simple, problem, x, inflow_map, circulation, None, time.perf_counter() - started)
+        return physical(Trim(simple, problem, x, inflow_map, circulation, None, time.perf_counter() - started))
 
     model = Model.build(aircraft, condition, trim_model(chosen))
     inflow_map, _ = dynamic_map(simple, problem, x, model.steps_per_revolution)
@@ -193,191 +207,14 @@ def trim(
             model, problem, x, wake, n_harmonics, progress, control_tolerance
         )
     seconds = time.perf_counter() - started
-    return Trim(model, problem, x, inflow_map, circulation, wake, seconds, history, dict(wake.counters))
+    return physical(Trim(model, problem, x, inflow_map, circulation, wake, seconds, history, dict(wake.counters)))
 
 
-def on_relaxation(
-    model: Model,
-    wake: WakeInTrim,
-    x: np.ndarray,
-    inflow_map: np.ndarray,
-    n_harmonics: int,
-    progress: Progress | Silent,
-    control_tolerance: float = CONTROL_TOLERANCE,
-) -> tuple[_core.TrimProblem, np.ndarray, np.ndarray, list[dict[str, float]]]:
-    """Trim and wake in turn until the pitch controls rest: problem, unknowns, inflow map, history."""
-    history: list[dict[str, float]] = []
-    for outer in range(MAX_OUTER):
-        problem = trim_problem(model, inflow_map, n_harmonics)
-        before = model.pitch_controls(x[:4])
-        x = solve(model, problem, x)
-        change = float(np.max(np.abs(model.pitch_controls(x[:4]) - before)))
-        if outer > 0 and change < control_tolerance and wake.converged:
-            history[-1]["control_change"] = change
-            return problem, x, inflow_map, history
-        wake.converge(problem, x)
-        inflow_map = wake.inflow_map
-        history.append({**wake.last, "control_change": change})
-        progress.advance(1, f"inflow change {wake.last['inflow_change']:.1e}, controls {change:.1e} rad")
-    raise NumericalFailure(
-        f"trim on the free wake did not settle in {MAX_OUTER} passes: pitch controls still move {change:.2e} rad "
-        f"(allowed {control_tolerance:g}), inflow {wake.last['inflow_change']:.2e} of the tip speed "
-        f"(allowed {model.inflow.inflow_tolerance:g})"
-    )
-
-
-def convention(condition: FlightCondition) -> tuple[str, float]:
-    """What fixes the lateral degree of freedom: bank, sideslip, or the heading where the aircraft hardly moves."""
-    if condition.heading == "free":
-        return "bank", condition.bank
-    if condition.speed < 1.0:
-        return "heading", -condition.sideslip
-    return "sideslip", condition.sideslip
-
-
-def trim_problem(model: Model, inflow_map: np.ndarray | None, n_harmonics: int = 8) -> _core.TrimProblem:
-    """The trim equations of the model's condition, on a held inflow map or with dynamic inflow."""
-    c = model.condition
-    kind, angle = convention(c)
-    n_azimuths = model.steps_per_revolution if inflow_map is None else inflow_map.shape[0]
-    mean = 0.0
-    if inflow_map is not None:
-        mean = model.disk_mean(inflow_map)
-    # at least four azimuths per highest harmonic
-    fine = n_azimuths * int(np.ceil(4 * n_harmonics / n_azimuths))
-    if inflow_map is not None and fine > n_azimuths:
-        inflow_map = resample(inflow_map, fine)
-    return _core.TrimProblem(c.speed, c.flight_path, c.turn_rate, kind, angle, n_harmonics, fine, inflow_map, mean)
-
-
-def resample(inflow_map: np.ndarray, n: int) -> np.ndarray:
-    """Trigonometric interpolation of a periodic map (n_azimuths, ...) to `n` azimuths."""
-    from scipy.signal import resample as fourier_resample
-
-    return np.ascontiguousarray(fourier_resample(inflow_map, n, axis=0))
-
-
-def first_guess(model: Model, problem: _core.TrimProblem) -> np.ndarray:
-    """Closed-form start: momentum inflow, linear blade-element thrust and flapping, sticks through the rigging.
-
-    C_T = sigma a/2 [theta_75 (1/3 + mu^2/2) - lambda/2]; the cyclic holds two degrees of forward flapping against
-    (8/3 theta_75 - 2 lambda) mu; drag of four per cent of the weight at 80 kt, growing with the square of the speed.
-    """
-    modes, inflow, tail = model.core.trim_layout(problem)
-    x = np.zeros(modes[-1])
-    c, rotor, data = model.condition, model.rotor, model.data
-    area = np.pi * rotor["radius"] ** 2
-    ct = c.gross_mass * STANDARD_GRAVITY / (model.density * area * model.tip_speed**2)
-    mu = c.speed * np.cos(c.flight_path) / model.tip_speed
-    lambda_0 = np.sqrt(ct / 2)
-    for _ in range(50):
-        lambda_0 = 0.5 * (lambda_0 + ct / (2 * np.hypot(mu, lambda_0)))
-    drag = 0.04 * (c.speed / 41.0) ** 2
-    through = lambda_0 + c.speed / model.tip_speed * (drag + np.sin(c.flight_path))
-    loading = 2 * ct / (5.7 * model.aircraft.solidity)
-    pitch_75 = (loading + 0.5 * through) / (1 / 3 + mu**2 / 2)
-    twist = data["rotor"]["blade"]["twist"]
-    theta_0 = pitch_75 - np.interp(0.75 * rotor["radius"], twist["x"], twist["y"])
-    forward = np.radians(2.0)
-    theta_1s = -(forward + mu * (8 / 3 * pitch_75 - 2 * through) / (1 - mu**2 / 2))
-
-    # sticks that give this pitch, the pedal at mid travel
-    matrix, offset = np.asarray(data["rigging"]["matrix"]), np.asarray(data["rigging"]["offset"])
-    pedal = 0.5 * INCH * model.aircraft.stick_travel_in[3]
-    wanted = np.array([np.radians(1.0), theta_1s, theta_0]) - offset[:3] - matrix[:3, 3] * pedal
-    x[:3], x[3] = np.linalg.solve(matrix[:3, :3], wanted), pedal
-    x[5] = forward + data["rotor"]["shaft_tilt_forward"] - drag
-    kind, angle = convention(c)
-    if kind == "sideslip":
-        x[6] = -angle
-    x[inflow] = lambda_0
-    if tail < modes[0]:
-        x[tail] = 0.02
-    flap = modes[rotor["flap_mode"]]
-    x[flap] = np.radians(3.0) / rotor["flap_per_coordinate"]
-    x[flap + 1] = forward / rotor["flap_per_coordinate"]
-    lag_mode = int(np.argmin(rotor["frequencies"]))
-    lead = rotor["root_lead_slope"][lag_mode]
-    if abs(lead) > 0:
-        x[modes[lag_mode]] = -np.radians(3.0) / lead
-    return x
-
-
-def solve(model: Model, problem: _core.TrimProblem, x0: np.ndarray) -> np.ndarray:
-    """Solve the trim equations with MINPACK's hybrid method and the exact Jacobian."""
-    from scipy.optimize import root
-
-    core = model.core
-    result = root(
-        lambda x: core.trim_residual(problem, x),
-        x0,
-        jac=lambda x: core.trim_jacobian(problem, x),
-        method="hybr",
-        options={"xtol": 1e-11, "maxfev": 400},
-    )
-    x = result.x
-    if not np.all(np.isfinite(x)):
-        raise NumericalFailure("trim failed: the iteration left the finite numbers")
-    norms = residual_norms(model, problem, x)
-    if (
-        norms["linear"] > LINEAR_TOLERANCE
-        or norms["angular"] > ANGULAR_TOLERANCE
-        or norms["harmonics"] > HARMONIC_TOLERANCE
-        or norms["other"] > 1e-6
-    ):
-        raise NumericalFailure(failure_text(model, problem, x))
-    return x
-
-
-def residual_norms(model: Model, problem: _core.TrimProblem, x: np.ndarray) -> dict[str, float]:
-    """Largest residuals by kind."""
-    f = np.abs(model.core.trim_residual(problem, x))
-    modes, _, _ = model.core.trim_layout(problem)
-    return {
-        "linear": float(f[:3].max()),
-        "angular": float(f[3:6].max()),
-        "other": float(f[6 : modes[0]].max()),
-        "harmonics": float(f[modes[0] :].max()),
-    }
-
-
-def failure_text(model: Model, problem: _core.TrimProblem, x: np.ndarray) -> str:
-    """Which equation is not met, and where the iteration stopped."""
-    f = model.core.trim_residual(problem, x)
-    names = model.core.trim_equations(problem)
-    modes, _, _ = model.core.trim_layout(problem)
-    tolerance = np.full(f.size, HARMONIC_TOLERANCE)
-    tolerance[:6] = LINEAR_TOLERANCE
-    worst = int(np.nanargmax(np.abs(f) / tolerance))
-    unit = "m/s2" if worst < 3 else "rad/s2" if worst < 6 else "rad" if worst >= modes[0] else "-"
-    sticks = ", ".join(f"{v / INCH:.2f}" for v in x[:4])
-    return (
-        f"no trim found: equation {names[worst]} is not met (residual {f[worst]:.3g} {unit}); stopped at sticks "
-        f"lateral, longitudinal, collective, pedal = {sticks} in, roll {np.degrees(x[4]):.1f} deg, "
-        f"pitch {np.degrees(x[5]):.1f} deg, heading against track {np.degrees(x[6]):.1f} deg"
-    )
-
-
-def dynamic_map(
-    model: Model, problem: _core.TrimProblem, x: np.ndarray, n_azimuths: int | None = None
-) -> tuple[np.ndarray, np.ndarray]:
-    """Inflow and circulation maps (n_azimuths, n_stations) of a trim with dynamic inflow."""
-    n = n_azimuths or model.steps_per_revolution
-    _, i, _ = model.core.trim_layout(problem)
-    mean, sine, cosine = x[i : i + 3]
-    psi = 2 * np.pi * np.arange(n) / n
-    r = model.stations / model.rotor["radius"]
-    inflow_map = mean + np.outer(cosine * np.cos(psi) + sine * np.sin(psi), r)
-    q, q_dot = model.core.trim_motion(problem, x, n)
-    y, _ = model.core.trim_state(problem, x, 0.0)
-    hub_velocity, hub_rates = model.core.hub(y)
-    circulation = np.array(
-        [
-            model.core.section_circulation(hub_velocity, hub_rates, x[:4], psi[k], q[k], q_dot[k], inflow_map[k])[0]
-            for k in range(n)
-        ]
-    )
-    return inflow_map, circulation
+def physical(found: Trim) -> Trim:
+    """`found`, unless a monitor says that it is no answer."""
+    if found.failures:
+        raise NumericalFailure(f"trim: {'; '.join(found.failures)}", partial=found)
+    return found
 
 
 def trim_inputs(start: Trim, t: float) -> _core.Inputs:
@@ -390,27 +227,3 @@ def trim_inputs(start: Trim, t: float) -> _core.Inputs:
     rows = [(first + b * n // model.n_blades) % n for b in range(model.n_blades)]
     mean = model.disk_mean(start.inflow_map)
     return _core.Inputs(start.x[:4], np.zeros(4), 0.0, start.inflow_map[rows], mean, start.stabilator_incidence)
-
-
-def on_marching(
-    model: Model,
-    problem: _core.TrimProblem,
-    x: np.ndarray,
-    wake: WakeInTrim,
-    n_harmonics: int,
-    progress: Progress | Silent,
-    control_tolerance: float = CONTROL_TOLERANCE,
-) -> tuple[_core.TrimProblem, np.ndarray, np.ndarray, np.ndarray]:
-    """Trim on the time-marching wake: march a revolution at the trimmed motion, trim on its inflow, until controls rest."""
-    march = wake.marching(model)
-    for revolution in range(60):
-        inflow_map, circulation = marching_map(march, problem, x)
-        before = model.pitch_controls(x[:4])
-        problem = trim_problem(model, inflow_map, n_harmonics)
-        x = solve(model, problem, x)
-        change = float(np.max(np.abs(model.pitch_controls(x[:4]) - before)))
-        progress.advance(1, f"marching wake: controls {change:.1e} rad")
-        if revolution > 2 and change < 0.1 * control_tolerance:
-            wake.counters["wake_segment_evaluations"] += march.segment_evaluations
-            return problem, x, inflow_map, circulation
-    raise NumericalFailure(f"trim on the time-marching wake did not settle: controls still move {change:.2e} rad")

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .inflow import DynamicInflow
+from .monitors import lines, variables
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -117,6 +118,7 @@ def to_dataset(start: Trim) -> xr.Dataset:
         "velocity_b": y[:3],
         "rates_b": y[3:6],
         **maps,
+        **variables(start.monitors),
     }
     if start.history:
         arrays["residual_inflow"] = start.history[-1]["inflow_change"]
@@ -134,6 +136,8 @@ def to_dataset(start: Trim) -> xr.Dataset:
         },
         "condition": start.condition.as_attributes(),
         "seconds_trim": start.seconds,
+        "warnings": "\n".join(start.warnings),
+        "failure": "; ".join(start.failures),
         **start.counters,
     }
     return assemble_trim({k: np.asarray(v) for k, v in arrays.items()}, attributes)
@@ -195,5 +199,7 @@ def table(start: Trim) -> str:
                 f"{last['first_turn_change']:.1e} R, pitch controls by {last['control_change']:.1e} rad",
             )
         )
+    rows += lines(start.monitors)
+    rows += [("warning", text) for text in start.warnings]
     width = max(len(name) for name, _ in rows)
     return "\n".join(f"{name:<{width}}  {value.strip()}" for name, value in rows)

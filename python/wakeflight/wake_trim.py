@@ -31,7 +31,6 @@ class WakeInTrim:
         self.model = model
         self.n = model.steps_per_revolution
         self.psi = 2 * np.pi * np.arange(self.n) / self.n
-        self.mean_inflow = model.disk_mean(inflow_map)
         self.lambda_far = inflow_map.copy()
         self.circulation = np.zeros_like(inflow_map)
         self.inflow_map = inflow_map
@@ -63,7 +62,8 @@ class WakeInTrim:
         stick = np.asarray(stick)
         if self.relaxation is None:
             try:
-                self.relaxation = _core.RelaxationWake(model.wake_options, *hub, self.mean_inflow)
+                mean = model.disk_mean(self.inflow_map[:, : model.stations.size])
+                self.relaxation = _core.RelaxationWake(model.wake_options, *hub, mean)
             except ValueError as reason:
                 raise InputError(f"wake: {reason}") from reason
             # before there is a wake, the map given serves as total inflow
@@ -75,6 +75,7 @@ class WakeInTrim:
         share, least = options.inflow_relaxation, np.inf
         for iteration in range(max_iterations):
             self.relaxation.set_state(*hub, flap, lead, self.circulation)
+            self.relaxation.set_mean_inflow(model.carrying_inflow(self.circulation, hub[0]))
             norms = self.relaxation.sweep(options.sweeps)
             far = self.relaxation.inflow_far()
             change = far - self.lambda_far

@@ -27,13 +27,17 @@ RUST_ORDER = (
 
 # each module may import itself and the rows before its own; a new module needs its place here
 PYTHON_ORDER = (
-    {"_core", "errors", "schema"},
-    {"units", "references", "vortex", "progress", "text"},
-    {"condition", "inflow", "results", "maneuvers", "wing"},
+    {"_core", "errors", "schema", "regime", "disk"},
+    {"units", "references", "vortex", "progress", "limits", "text"},
+    {"condition", "inflow", "results", "maneuvers", "wing", "monitors"},
     {"aircraft", "thinning"},
     {"model", "modes"},
     {"integrators", "exchange"},
-    {"wake_trim", "trim_results", "recorder"},
+    {"wake_trim", "trim_results", "trim_equations"},
+    {"trim_limits", "trim_start", "trim_newton"},
+    {"trim_solve", "trim_monitors"},
+    {"trim_wake", "flight_monitors"},
+    {"recorder"},
     {"trim"},
     {"flight", "tunnel"},
     {"linearize", "sweep", "converge"},

@@ -239,3 +239,27 @@ def test_a_verb_is_not_hidden_by_its_module():
     # what the import system does after importing the submodule wakeflight.trim
     wakeflight.trim = ModuleType("wakeflight.trim")
     assert not isinstance(vars(wakeflight).get("trim"), ModuleType)
+
+
+def test_a_trim_beyond_a_stop_says_so_and_is_written(capsys, tmp_path):
+    import xarray as xr
+
+    out = tmp_path / "trim"
+    arguments = ["trim", "--inflow", "dynamic", "--speed", "190 kt", "--flight-path", "0 deg", "--out", str(out)]
+    code, printed, _ = _run(capsys, arguments)
+    assert code == 0
+    (line,) = (each for each in printed.splitlines() if each.startswith("warning") and "collective" in each)
+    with xr.open_dataset(out / "trim.nc") as data:
+        assert line.removeprefix("warning").strip() in data.attrs["warnings"]
+
+
+def test_what_a_verb_had_computed_is_saved_where_it_fails():
+    saved = []
+
+    def fails(partial):
+        raise NumericalFailure("no answer", partial=partial)
+
+    for partial in ("half", None):
+        with pytest.raises(NumericalFailure):
+            cli._keeping(fails, saved.append)(partial)
+    assert saved == ["half"]

@@ -21,7 +21,7 @@ KEYS = (
 
 
 def test_the_defaults_are_those_of_the_coupled_flight():
-    options = TimeMarchingWake().core_options(load_aircraft("uh60a"))
+    options = TimeMarchingWake().resolved("forward").core_options(load_aircraft("uh60a"))
     assert list(options) == KEYS.split()
     assert options["steps_per_revolution"] == 36
     assert options["near_wake_angle"] == pytest.approx(math.pi / 6)
@@ -45,7 +45,7 @@ def test_the_defaults_are_those_of_the_coupled_flight():
 
 def test_options_reach_the_core():
     wake = TimeMarchingWake(turns=5, azimuth_step="5 deg", scheme="pc2b", tip_strength="max", inboard_wake="sheet")
-    options = wake.core_options(load_aircraft("uh60a"))
+    options = wake.resolved("forward").core_options(load_aircraft("uh60a"))
     assert (options["turns"], options["steps_per_revolution"]) == (5.0, 72)
     assert (options["scheme"], options["tip_strength"], options["inboard_wake"]) == ("pc2b", "max", "sheet")
 
@@ -85,9 +85,9 @@ def test_the_step_divides_the_angle_between_blades():
     with pytest.raises(InputError, match="90 deg"):
         TimeMarchingWake(azimuth_step="8 deg").step(aircraft)
     with pytest.raises(InputError, match="near_wake_angle"):
-        TimeMarchingWake(azimuth_step="9 deg").core_options(aircraft)
+        TimeMarchingWake(azimuth_step="9 deg").resolved("forward").core_options(aircraft)
     with pytest.raises(InputError, match="turns"):
-        TimeMarchingWake(turns=4.01).core_options(aircraft)
+        TimeMarchingWake(turns=4.01).resolved("forward").core_options(aircraft)
 
 
 def test_names_are_models_and_models_are_themselves():
@@ -139,4 +139,4 @@ def test_update_intervals_are_whole_steps(uh60a, value, steps):
 )
 def test_options_of_the_exchange_are_checked(uh60a, options, named):
     with pytest.raises(InputError, match=named):
-        TimeMarchingWake(**options).core_options(uh60a)
+        TimeMarchingWake(**options).resolved("forward").core_options(uh60a)

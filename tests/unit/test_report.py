@@ -2,6 +2,7 @@
 
 import re
 
+import numpy as np
 import pytest
 import synthetic
 
@@ -47,6 +48,15 @@ def test_the_summary_says_what_was_flown_and_what_it_cost(written):
     ):
         assert text in page, text
     assert "did not finish" not in page
+
+
+def test_warnings_and_monitors_are_on_the_page(tmp_path):
+    told = "collective at 11.40 in, beyond its stop at 10 in\n21.6 % of the disk beyond stall"
+    run = synthetic.run("dynamic", revolutions=2, warnings=told)
+    run["stick_margin"] = ("time", np.linspace(1.0, -1.4, run.sizes["time"]))
+    page = report.write(run, tmp_path).read_text()
+    assert page.count('class="warning"') == 2
+    assert "Monitors" in page and f"-1.4 at {float(run.time[-1]):.2f} s" in page
 
 
 def test_a_failed_run_says_so(tmp_path):

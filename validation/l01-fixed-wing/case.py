@@ -42,7 +42,7 @@ def fixed_wing(table, i):
 
 def wing(ratio, n):
     """Edges and stations along the span, circulation over U alpha, downwash angle over alpha, of a wing of unit chord."""
-    options = wf.RelaxationWake(near_wake_angle="10 deg").core_options(wf.load_aircraft("uh60a"))
+    options = wf.RelaxationWake(near_wake_angle="10 deg").resolved("forward").core_options(wf.load_aircraft("uh60a"))
     options |= {"n_blades": 1, "radius": FAR + ratio / 2, "root_cutout": FAR - ratio / 2, "hinge_offset": 0.0,
                 "chord": 1.0, "omega": 1.0 / FAR, "n_stations": n, "near_wake_segments": 60}  # fmt: skip
     at_rest = ([0.0, 0.0, 0.0], [0.0, 0.0, 0.0])

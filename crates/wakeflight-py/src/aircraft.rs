@@ -56,34 +56,31 @@ pub struct PyTrimProblem(TrimProblem);
 
 #[pymethods]
 impl PyTrimProblem {
-    /// `convention` is "bank", "sideslip" or "heading" with `angle` [rad]; inflow (n_azimuths, n_stations) or None (dynamic).
+    /// Lateral convention: `bank` and `sideslip` [rad], and the share of the bank in its equation; inflow
+    /// (n_azimuths, n_stations) or None (dynamic).
     #[new]
     #[allow(clippy::too_many_arguments, reason = "the fields of the problem")]
-    #[pyo3(signature = (speed, flight_path, turn_rate, convention, angle, n_harmonics, n_azimuths, inflow, mean_inflow))]
+    #[pyo3(signature = (speed, flight_path, turn_rate, bank, sideslip, bank_share, n_harmonics, n_azimuths, inflow, mean_inflow))]
     fn new(
         speed: f64,
         flight_path: f64,
         turn_rate: f64,
-        convention: &str,
-        angle: f64,
+        bank: f64,
+        sideslip: f64,
+        bank_share: f64,
         n_harmonics: usize,
         n_azimuths: usize,
         inflow: Option<PyReadonlyArray2<f64>>,
         mean_inflow: f64,
-    ) -> PyResult<Self> {
-        let convention = match convention {
-            "bank" => Convention::Bank(angle),
-            "sideslip" => Convention::Sideslip(angle),
-            "heading" => Convention::Heading(angle),
-            other => return Err(invalid(format!("convention '{other}': bank, sideslip or heading"))),
-        };
+    ) -> Self {
+        let convention = Convention { bank, sideslip, bank_share };
         let inflow = match inflow {
             None => TrimInflow::Dynamic,
             Some(map) => {
                 TrimInflow::Map { inflow: map.as_array().iter().copied().collect(), mean: mean_inflow }
             }
         };
-        Ok(Self(TrimProblem { speed, flight_path, turn_rate, convention, n_harmonics, n_azimuths, inflow }))
+        Self(TrimProblem { speed, flight_path, turn_rate, convention, n_harmonics, n_azimuths, inflow })
     }
 }
 
@@ -210,7 +207,7 @@ impl PyAircraft {
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let x = x.as_slice()?;
         let mut f = vec![0.0; x.len()];
-        py.detach(|| self.inner.trim_residual(&problem.0, x, &mut f));
+        py.detach(|| self.inner.trim_residual_of_four(&problem.0, x, &mut f));
         Ok(f.into_pyarray(py))
     }
 

@@ -309,6 +309,11 @@ impl PyMarchingExchange {
         Ok(Self { inner: MarchingExchange::new(wake, exchange, far, gamma, total) })
     }
 
+    /// Mean induced inflow, over the tip speed, that carries the inboard sheet in the steps that follow.
+    fn set_mean_inflow(&mut self, mean_inflow: f64) -> PyResult<()> {
+        self.inner.wake.set_mean_inflow(mean_inflow).map_err(py_error)
+    }
+
     /// A copy of the wake as it is now.
     fn snapshot(&self) -> PyTimeMarchingWake {
         PyTimeMarchingWake { inner: self.inner.wake.clone() }

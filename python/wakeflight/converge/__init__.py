@@ -12,7 +12,7 @@ from ..errors import InputError, NumericalFailure
 from ..inflow import InflowModel, inflow_model
 from ..maneuvers import SHIPPED, Maneuver, load_maneuver
 from ..progress import Progress, Silent
-from ..tunnel import configured
+from ..tunnel import stand_inflow
 from .parameters import PARAMETERS, Case, Parameter, applied, check_run, parameter, settings
 from .runs import FlightRun, ModesRun, Outcome, Run, TrimRun, TunnelRun, warm
 from .study import Study
@@ -87,10 +87,7 @@ def _run(
     if run in ("trim", "modes", "tunnel") and revolutions is not None:
         raise InputError.of("revolutions", revolutions, f"{run} has none: choose a manoeuvre")
     if run == "tunnel":
-        given = dict(stand or {})
-        where = {"speed": "0 kt", "shaft_angle": "0 deg", "climb": "0 m/s"} | given
-        model = inflow_model(inflow) if not isinstance(inflow, str) else configured(aircraft, inflow, {}, where)
-        return TunnelRun(chosen, given), Case(load_rotor(aircraft), model)
+        return TunnelRun(chosen, dict(stand or {})), Case(load_rotor(aircraft), stand_inflow(inflow))
     if stand:
         raise InputError.of("stand", ", ".join(stand), "belongs to the run tunnel")
     base = Case(aircraft, inflow_model(inflow))

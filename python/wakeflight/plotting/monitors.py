@@ -13,13 +13,15 @@ if TYPE_CHECKING:
     from .histories import Runs
 
 CAPTION = (
-    "Power, thrust coefficient and numerical monitors of the run (largest step of a wake node, odd-even "
-    "content of the wake)."
+    "Power, thrust coefficient and monitors of the run (largest inflow of any station, share of the disk beyond stall over "
+    "a passage of the blades, largest step of a wake node, odd-even content of the wake)."
 )
 PANELS = (
     Panel("power", "power [kW]", 1e-3, span=50.0),
     Panel("ct", "$C_T$ [$10^{-3}$]", 1e3, span=0.5),
     Panel("inflow_mean", "mean inflow λ₀ [–]", span=2e-3),
+    Panel("inflow_max", "largest inflow [–]", span=0.02),
+    Panel("stalled_share", "beyond stall [% of disk]", 1e2, span=2.0),
     Panel("odd_even", "odd–even [R]", span=1e-6),
     Panel("max_displacement", "node step [m]"),
     Panel("energy", "energy [kJ]", 1e-3),

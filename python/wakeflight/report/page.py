@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..plotting import COMPARISONS, FIGURES, Plot
 from ..plotting.style import save
-from .summary import Row, configuration, counters, summary, trim_table, warnings
+from .summary import Row, configuration, counters, summary, trim_table, warnings, watched
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -80,7 +80,11 @@ def _title(run: xr.Dataset, several: bool) -> str:
 
 def _tables(named: Mapping[str, xr.Dataset], trim: xr.Dataset | None) -> dict[str, list[tuple[str, list[str]]]]:
     """Tables of the page: title -> rows of a label and one cell per run."""
-    tables = {"Summary": _join(summary, named), "Work done": _join(counters, named)}
+    tables = {
+        "Summary": _join(summary, named),
+        "Monitors": _join(watched, named),
+        "Work done": _join(counters, named),
+    }
     if trim is not None:
         tables["Trim"] = [(row.label, [row.value]) for row in trim_table(trim)]
     return tables

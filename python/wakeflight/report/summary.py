@@ -65,13 +65,44 @@ def counters(run: xr.Dataset) -> list[Row]:
     return [Row(NAMES[name], f"{int(run.attrs[name]):,}") for name in COUNTERS if name in run.attrs]
 
 
+WATCHED = (
+    ("inflow_max", "largest induced inflow [–]", np.max, 1.0),
+    ("mach_max", "largest section Mach number [–]", np.max, 1.0),
+    ("alpha_min", "smallest angle of attack [deg]", np.min, 180.0 / np.pi),
+    ("alpha_max", "largest angle of attack [deg]", np.max, 180.0 / np.pi),
+    ("stalled_share", "largest share of the disk beyond stall [%]", np.max, 100.0),
+    ("reversed_share", "largest share of the disk in reversed flow [%]", np.max, 100.0),
+    ("mu_z", "fastest descent down the shaft, over the tip speed [–]", np.max, 1.0),
+    ("stick_margin", "smallest distance of a stick from a stop [in]", np.min, 1.0),
+    ("power", "largest power [kW]", np.max, 1e-3),
+    ("height", "smallest height above the ground [m]", np.min, 1.0),
+    ("vortex_blade_distance", "closest tip vortex to a blade [core radii]", np.min, 1.0),
+    ("max_displacement", "largest step of a wake node [m]", np.max, 1.0),
+)
+"""Monitors of a run: variable, label, which end of it is told, factor of its unit."""
+
+
+def watched(run: xr.Dataset) -> list[Row]:
+    """The extremes of everything that is monitored, and when."""
+    rows = []
+    for name, label, extreme, factor in WATCHED:
+        if name not in run:
+            continue
+        values = run[name].values
+        worst = extreme(values)
+        rows.append(
+            Row(label, f"{factor * float(worst):.4g} at {float(run.time[int(np.argmax(values == worst))]):.2f} s")
+        )
+    return rows
+
+
 def warnings(run: xr.Dataset) -> list[str]:
     """Warnings of one run, one text each."""
     kept = run.attrs.get("warnings", "")
     if isinstance(kept, str) and kept.startswith("["):
         kept = json.loads(kept)
     elif isinstance(kept, str):
-        kept = [kept] if kept not in ("", "none") else []
+        kept = kept.splitlines() if kept != "none" else []
     return [str(text) for text in kept]
 
 

@@ -4,12 +4,11 @@
 from __future__ import annotations
 
 import time
-from dataclasses import fields, replace
 from inspect import signature
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..errors import InputError
+from ..errors import InputError, NumericalFailure
 from ..inflow import DynamicInflow
 from ..progress import Progress, Silent
 from .annular import check_axial, on_annuli
@@ -19,7 +18,6 @@ from .condition import (
     control_equations,
     higher_harmonics,
     hub_velocity,
-    regime,
     rotor_speed,
     within,
 )
@@ -33,7 +31,7 @@ if TYPE_CHECKING:
 BLADE_MODELS = ("lifting-line", "second-order", "weissinger")
 """Models of the blade's lift, the default first."""
 
-__all__ = ["Tunnel", "check", "configured", "tunnel"]
+__all__ = ["Tunnel", "check", "stand_inflow", "tunnel"]
 
 
 def tunnel(
@@ -81,8 +79,8 @@ def tunnel(
     speed, shaft_angle : wind from the front, and tilt of the shaft, positive aft (disk met from below, as in descent);
         +90 deg is axial descent, -90 deg axial climb.
     inflow : `time-marching`, `relaxation`, `dynamic`, `annular` (hover and axial climb: blade elements and momentum ring by
-        ring, a baseline), or a configured model (which is then used as it is). A name takes the defaults of the kind of
-        condition (`wakeflight.tunnel.model.REGIME_OPTIONS`).
+        ring, a baseline), or a configured model. What a model leaves to the regime (hover and climb, axial descent, forward
+        flight) takes its numbers (`wakeflight.regime`); what is given stays.
     climb : speed of the hub up the shaft, on top of the wind; negative is descent.
     roll_rate, pitch_rate : steady rates of the stand, right side down and nose up positive.
     collective_at : `root` (the twist of the file is added to the collective) or a radius such as "0.75 R" (the
@@ -109,10 +107,11 @@ def tunnel(
     -------
     Tunnel : `.ct`, `.cq`, `.cp`, `.figure_of_merit`, `.thrust`, `.torque`, `.power`, `.beta_0`, `.beta_1c`, `.beta_1s`,
         `.theta_0`, `.theta_1c`, `.theta_1s`, `.hub_force`, `.hub_moment`, `.aero_force`, `.aero_moment`, `.settled`,
-        `.notes`, `.data` (xarray Dataset), `.wake_velocity(points)`, `.table()`, `.save(path)`.
+        `.notes`, `.warnings`, `.monitors`, `.data` (xarray Dataset), `.wake_velocity(points)`, `.table()`, `.save(path)`.
 
-    Raises `InputError` for bad input and `NumericalFailure` where no solution is found. A wake that does not settle is
-    no error: `.settled` is False, `.notes` and the means' scatter say how much it moves.
+    Raises `InputError` for bad input and `NumericalFailure` where no solution is found, or one beyond physics, which is then its
+    `partial`. A wake that does not settle is no error: `.settled` is False, `.notes` and the means' scatter say how much it
+    moves. What is beyond a limit of the model stands in `.warnings`, and in `.notes`.
     """
     started = time.perf_counter()
     progress = progress or Silent()
@@ -128,7 +127,10 @@ def tunnel(
         found = on_annuli(wake, with_dynamic_inflow(simple), progress)
     else:
         found = solution(simple, wake, options, progress)
-    return Tunnel(found, time.perf_counter() - started)
+    stand = Tunnel(found, time.perf_counter() - started)
+    if stand.failures:
+        raise NumericalFailure(f"rotor on the stand: {'; '.join(stand.failures)}", partial=stand)
+    return stand
 
 
 def check(aircraft: str | Path | Aircraft | Rotor, inflow: str | StandInflow, **given: Any) -> None:
@@ -139,26 +141,6 @@ def check(aircraft: str | Path | Aircraft | Rotor, inflow: str | StandInflow, **
         if name not in defaults:
             raise InputError.of(name, given[name], f"not an argument of tunnel; allowed: {', '.join(defaults)}")
     _prepared(aircraft, inflow, defaults | given)
-
-
-def configured(
-    aircraft: str | Path | Aircraft | Rotor, inflow: str, options: dict[str, Any], condition: dict[str, Any]
-) -> StandInflow:
-    """The model that `tunnel` would take for the name `inflow` in a condition, with `options` changed.
-
-    condition: speed, shaft_angle, climb, omega as `tunnel` takes them.
-    """
-    from ..aircraft import load_rotor
-
-    rotor = load_rotor(aircraft)
-    omega = rotor_speed(rotor, condition.get("omega"), None)
-    velocity = hub_velocity(condition["speed"], condition["shaft_angle"], condition["climb"])
-    model = stand_inflow(inflow, regime(velocity, omega * rotor.radius))
-    known = {field.name for field in fields(model)}
-    for name in options:
-        if name not in known:
-            raise InputError.of(name, options[name], f"not an option of {model.name} inflow")
-    return replace(model, **options)
 
 
 def _prepared(aircraft: Any, inflow: Any, given: dict[str, Any]) -> tuple[Rotor, StandCondition, StandInflow]:
@@ -189,7 +171,7 @@ def _prepared(aircraft: Any, inflow: Any, given: dict[str, Any]) -> tuple[Rotor,
         higher=higher_harmonics(given["higher_harmonics"], n_harmonics),
         as_given={name: value if isinstance(value, int | float) else str(value) for name, value in given.items()},
     )
-    model = stand_inflow(inflow, condition.regime(rotor.omega * rotor.radius))
+    model = stand_inflow(inflow).resolved(condition.regime(rotor.omega * rotor.radius))
     model.step(rotor)
     blade_model = given["blade_model"]
     if blade_model not in BLADE_MODELS:

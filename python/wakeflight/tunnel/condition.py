@@ -9,12 +9,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from .. import _core
+from .. import regime as regimes
 from ..aircraft import Rotor
 from ..errors import InputError
 from ..units import quantity, shown
-
-AXIAL_ADVANCE_RATIO = 0.03
-"""Advance ratio below which a condition counts as axial: hover, climb or descent."""
 
 DEFAULT_COLLECTIVE = "8 deg"
 
@@ -40,33 +38,21 @@ class StandCondition:
 
     def mu(self, tip_speed: float) -> float:
         """Advance ratio: in-plane speed over tip speed."""
-        return advance_ratio(self.velocity, tip_speed)
+        return math.hypot(self.velocity[0], self.velocity[1]) / tip_speed
 
     def mu_z(self, tip_speed: float) -> float:
         """Speed of the hub down the shaft over tip speed: descent positive, the air then comes from below."""
         return -self.velocity[2] / tip_speed
 
     def regime(self, tip_speed: float) -> str:
-        """Kind of condition, see `regime`."""
-        return regime(self.velocity, tip_speed)
+        """Regime of the rotor, see `wakeflight.regime`."""
+        return regimes.regime(math.hypot(self.velocity[0], self.velocity[1]), self.velocity[2], tip_speed)
 
     @property
     def trimmed(self) -> bool:
         """Whether any pitch control is found from a load or from flapping."""
         given = {"collective", "lateral_cyclic", "longitudinal_cyclic"}
         return any(name not in given for name, _ in self.controls)
-
-
-def advance_ratio(velocity: tuple[float, float, float], tip_speed: float) -> float:
-    """In-plane speed of the hub over tip speed."""
-    return math.hypot(velocity[0], velocity[1]) / tip_speed
-
-
-def regime(velocity: tuple[float, float, float], tip_speed: float) -> str:
-    """Kind of condition: `forward`, `hover` (climb too), or `descent` (axial, the air from below)."""
-    if advance_ratio(velocity, tip_speed) >= AXIAL_ADVANCE_RATIO:
-        return "forward"
-    return "descent" if -velocity[2] > 1e-6 * tip_speed else "hover"
 
 
 def within(field: str, value: Any, si_unit: str, low: float, high: float, unit: str) -> float:

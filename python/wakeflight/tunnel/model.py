@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""The compiled rotor on its stand, and the inflow model it is given by default for a kind of condition."""
+"""The compiled rotor on its stand, and the inflow models it can have."""
 
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any, ClassVar
 
 import numpy as np
@@ -14,41 +14,22 @@ from ..aircraft import Rotor
 from ..errors import InputError
 from ..inflow import MODELS, AnnularInflow, DynamicInflow, InflowModel, TimeMarchingWake, inflow_model
 from ..model import CompiledRotor
-from ..trim import resample
+from ..trim_equations import resample
 from ..units import STANDARD_GRAVITY
 from .condition import StandCondition
-
-REGIME_OPTIONS: dict[str, dict[str, Any]] = {
-    "forward": {},
-    "hover": {"turns": 5, "far_wake_turns": 2, "relaxation": 0.3, "sheet_factor": 1.4},
-    "descent": {"turns": 8, "far_wake_turns": 0, "relaxation": 0.3, "sheet_factor": 1.0},
-}
-"""Wake options that differ from the model's defaults by kind of condition, where the model is given by its name.
-
-Hover (and climb): five free turns and two repeated ones, since the wake stays below the disk; axial descent: eight
-free turns, none repeated, since the old end lies about the rotor. The same for every rotor.
-"""
-
-REVOLUTIONS = {"forward": (12, 4), "hover": (24, 12), "descent": (40, 20)}
-"""Revolutions marched and, of them, the last ones averaged. Axial wakes do not become periodic: they need more."""
-
 
 StandInflow = InflowModel | AnnularInflow
 """Inflow models of the stand."""
 
 
-def stand_inflow(inflow: str | StandInflow, regime: str) -> StandInflow:
-    """Model from its name with the options of the regime, or the configured model as it is."""
+def stand_inflow(inflow: str | StandInflow) -> StandInflow:
+    """Model from its name, or the configured model itself."""
     if inflow == AnnularInflow.name or isinstance(inflow, AnnularInflow):
         return inflow if isinstance(inflow, AnnularInflow) else AnnularInflow()
     if isinstance(inflow, str) and inflow not in MODELS:
         allowed = ", ".join([*MODELS, AnnularInflow.name])
         raise InputError.of("inflow", inflow, f"allowed: {allowed}, or a configured model")
-    model = inflow_model(inflow)
-    if model is inflow or isinstance(model, DynamicInflow):
-        return model
-    known = {name: value for name, value in REGIME_OPTIONS[regime].items() if hasattr(model, name)}
-    return replace(model, **known)
+    return inflow_model(inflow)
 
 
 @dataclass(frozen=True)
@@ -77,8 +58,12 @@ class StandModel(CompiledRotor):
         blade_model: str = "lifting-line",
         windmill: bool = False,
     ) -> StandModel:
-        """Compile; the tip loss of the file acts with dynamic inflow alone. Gravity acts down the shaft."""
+        """Compile; the tip loss of the file acts with dynamic inflow alone. Gravity acts down the shaft.
+
+        Options of the wake that depend on the regime take the numbers of the condition's.
+        """
         d = rotor.discretisation
+        inflow = inflow.resolved(condition.regime(rotor.omega * rotor.radius))
         inflow.step(rotor)
         core = _core.Stand(
             json.dumps(rotor.data),
@@ -107,6 +92,21 @@ class StandModel(CompiledRotor):
         c = self.condition
         higher, controls = list(c.higher), list(c.controls)
         return _core.StandProblem(c.velocity, c.rates, controls, higher, self.n_harmonics, fine, inflow_map)
+
+    @property
+    def rotor_tables(self) -> dict[str, Any]:
+        """Blade and airfoil as the core was given them."""
+        return self.aircraft.data
+
+    @property
+    def speed_of_sound(self) -> float:
+        """Speed of sound [m/s]."""
+        return self.condition.speed_of_sound
+
+    @property
+    def has_thin_sections(self) -> bool:
+        """Whether the blades lift as thin sections without stall instead of by their tables."""
+        return self.blade_model.startswith("weissinger")
 
     @property
     def dynamic_pressure_area(self) -> float:

@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..errors import InputError
+from ..monitors import Monitor, failures, lines, variables, warnings
 from ..trim_results import HORSEPOWER
-from .solve import Solution, by_azimuth
+from .solve import Revolution, Solution, by_azimuth
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -53,11 +54,29 @@ class Tunnel:
 
     @property
     def notes(self) -> list[str]:
-        """What must be said about this solution."""
-        return list(self.solution.notes)
+        """What must be said about this solution: what does not rest, and every warning."""
+        return [*self.solution.notes, *self.warnings]
 
     @cached_property
-    def _kept(self) -> list:
+    def monitors(self) -> tuple[Monitor, ...]:
+        """What is watched of this stand, each with its values and what it says."""
+        from .monitors import monitors
+
+        return monitors(self)
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What is doubtful in the rotor's data, and what lies beyond a limit of the model."""
+        return (*self.model.aircraft.warnings, *warnings(self.monitors))
+
+    @property
+    def failures(self) -> tuple[str, ...]:
+        """What lies beyond physics: a stand that has any is raised in a `NumericalFailure`, not returned."""
+        return failures(self.monitors)
+
+    @cached_property
+    def turns_kept(self) -> list[Revolution]:
+        """Marched revolutions in the means; none where the solution is periodic by construction."""
         return self.solution.revolutions[-self.averaged :] if self.averaged else []
 
     @cached_property
@@ -68,22 +87,30 @@ class Tunnel:
         inflow = None if self.model.is_dynamic else s.inflow_map
         return self.model.core.passages(s.problem, s.x, self.azimuth, inflow)
 
+    def passed(self, *names: str) -> tuple[np.ndarray, list[np.ndarray]]:
+        """Azimuths (n,) [rad] of every passage in the means, and the quantities `names` there (n, n_stations)."""
+        if not self.turns_kept:
+            return self.azimuth, [self._periodic[name] for name in names]
+        found = [self._passages(name) for name in names]
+        rows = found[0][0].ravel()
+        return self.azimuth[rows], [values.reshape(rows.size, -1) for _, values in found]
+
     def _by_azimuth(self, name: str) -> np.ndarray:
         """Mean of a quantity by azimuth (n, ...)."""
-        if not self._kept:
+        if not self.turns_kept:
             return self._periodic[name]
         rows, values = self._passages(name)
         return by_azimuth(rows, values, len(self.azimuth))
 
     def _passages(self, name: str) -> tuple[np.ndarray, np.ndarray]:
-        rows = np.concatenate([turn.rows for turn in self._kept])
-        values = np.concatenate([turn.passages[name] for turn in self._kept])
+        rows = np.concatenate([turn.rows for turn in self.turns_kept])
+        values = np.concatenate([turn.passages[name] for turn in self.turns_kept])
         return rows, values
 
     def _spread(self, name: str) -> np.ndarray:
         """Standard deviation over the passages of each azimuth."""
         mean = self._by_azimuth(name)
-        if not self._kept:
+        if not self.turns_kept:
             return np.zeros_like(mean)
         rows, values = self._passages(name)
         return np.sqrt(by_azimuth(rows, (values - mean[rows]) ** 2, len(self.azimuth)))
@@ -101,7 +128,7 @@ class Tunnel:
     @cached_property
     def x(self) -> np.ndarray:
         """Pitch controls and blade harmonics, means over the revolutions averaged."""
-        return np.mean([turn.x for turn in self._kept], axis=0) if self._kept else self.solution.x
+        return np.mean([turn.x for turn in self.turns_kept], axis=0) if self.turns_kept else self.solution.x
 
     # --- coefficients and loads -----------------------------------------------------------------------------
 
@@ -269,11 +296,11 @@ class Tunnel:
         s = self.solution
         if s.wake is None:
             return None
-        if not self._kept:
+        if not self.turns_kept:
             position = s.wake.relaxation.position()
             return position, np.zeros(position.shape[:2])
-        rows = np.concatenate([turn.rows for turn in self._kept])
-        path = np.concatenate([turn.path for turn in self._kept])
+        rows = np.concatenate([turn.rows for turn in self.turns_kept])
+        path = np.concatenate([turn.path for turn in self.turns_kept])
         mean = by_azimuth(rows, path, len(self.azimuth))
         squared = np.sum((path - mean[rows]) ** 2, axis=-1)
         return mean, np.sqrt(by_azimuth(rows, squared, len(self.azimuth)))
@@ -309,6 +336,7 @@ class Tunnel:
         from ..results import assemble_tunnel
 
         arrays = {**self._scalars(), **self._maps(), **self._motion(), **self._wake_arrays(), **self._histories()}
+        arrays |= variables(self.monitors)
         return assemble_tunnel({name: np.asarray(value) for name, value in arrays.items()}, self.attributes())
 
     def save(self, path: str | Path) -> Path:
@@ -322,7 +350,7 @@ class Tunnel:
         names = ("ct", "cq", "cp", "figure_of_merit", "thrust", "torque", "power", "beta_0", "beta_1c", "beta_1s")
         names += ("theta_0", "theta_1c", "theta_1s", "hub_force", "hub_moment", "aero_force", "aero_moment")
         lam = self.inflow_harmonics()
-        std = [float(np.std(each)) if len(each) else 0.0 for each in self._per_revolution(self._kept)]
+        std = [float(np.std(each)) if len(each) else 0.0 for each in self._per_revolution(self.turns_kept)]
         return {
             **{name: getattr(self, name) for name in names},
             "ct_sigma": self.ct / m.aircraft.solidity,
@@ -412,6 +440,8 @@ class Tunnel:
             "averaged": self.averaged,
             "settled": int(self.settled),
             "notes": "; ".join(self.notes),
+            "warnings": "\n".join(self.warnings),
+            "failure": "; ".join(self.failures),
             "residual": self.residual,
             "seconds_total": self.seconds,
             "segment_evaluations": evaluations,
@@ -456,7 +486,9 @@ class Tunnel:
             ("coning, beta_1c, 1s", f"{deg(self.beta_0):.3f}, {deg(self.beta_1c):.3f}, {deg(self.beta_1s):.3f} deg"),
             ("lambda_0, 1c, 1s", ", ".join(f"{v:.5f}" for v in lam)),
             ("residual", f"{self.residual:.1e}"),
-            *(("note", note) for note in self.notes),
+            *lines(self.monitors),
+            *(("note", note) for note in self.solution.notes),
+            *(("warning", text) for text in self.warnings),
         ]
         width = max(len(name) for name, _ in rows)
         return "\n".join(f"{name:<{width}}  {value}" for name, value in rows)

@@ -17,8 +17,9 @@ from ..errors import NumericalFailure
 from ..exchange import MarchingExchange
 from ..inflow import trim_model
 from ..progress import Progress, Silent
+from ..regime import REVOLUTIONS
 from ..wake_trim import WakeInTrim
-from .model import REGIME_OPTIONS, REVOLUTIONS, StandModel
+from .model import StandModel
 
 EQUATION_TOLERANCE = 1e-6
 """Largest residual: angle [rad] of a blade harmonic or control, blade loading, inflow ratio."""
@@ -59,6 +60,10 @@ class Revolution:
     inflow: np.ndarray
     path: np.ndarray
     x: np.ndarray
+    vortex_blade_distance: float
+    """Smallest distance of a tip vortex from a blade, in core radii."""
+    max_displacement: float
+    """Largest motion of a wake node in a step, over R."""
 
 
 def first_guess(model: StandModel, problem: _core.StandProblem) -> np.ndarray:
@@ -162,9 +167,6 @@ def on_relaxation(model: StandModel, start: Solution, progress: Progress | Silen
         if outer > 0 and change < CHANGE_TOLERANCE and wake.converged:
             settled = True
             break
-        wake.mean_inflow = carrying_inflow(model, problem, x, inflow_map)
-        if wake.relaxation is not None:
-            wake.relaxation.set_mean_inflow(wake.mean_inflow)
         try:
             wake.converge(problem, x)
         except ArithmeticError as reason:
@@ -187,7 +189,15 @@ def on_relaxation(model: StandModel, start: Solution, progress: Progress | Silen
         )
     circulation = wake.circulation
     return Solution(
-        model, problem, x, inflow_map, circulation, wake=wake, settled=settled, notes=notes, history=history
+        model,
+        problem,
+        x,
+        inflow_map,
+        circulation,
+        wake=wake,
+        settled=settled,
+        notes=notes,
+        history=history,
     )
 
 
@@ -195,16 +205,6 @@ def _stalled(history: list[dict[str, float]]) -> bool:
     """Whether the last pass brought nothing: the inflow changes no less than three passes before."""
     recent = [each["inflow_change"] for each in history[-3:]]
     return len(recent) == 3 and recent[-1] > 0.5 * recent[0]
-
-
-def carrying_inflow(model: StandModel, problem: _core.StandProblem, x: np.ndarray, inflow_map: np.ndarray) -> float:
-    """Momentum inflow of the present thrust: what carries the first guess and the inboard sheet."""
-    n = inflow_map.shape[0]
-    psi = 2 * np.pi * np.arange(n) / n
-    force = model.core.passages(problem, x, psi, inflow_map)["aero_force"]
-    ct = model.n_blades * float(force[:, 2].mean()) / model.dynamic_pressure_area
-    c = model.condition
-    return momentum_inflow(ct, c.mu(model.tip_speed), c.mu_z(model.tip_speed))
 
 
 def largest_change(model: StandModel, problem: _core.StandProblem, before: np.ndarray, after: np.ndarray) -> float:
@@ -286,20 +286,29 @@ def march_revolution(
     snapshots: list[_core.TimeMarchingWake],
 ) -> Revolution:
     """One revolution at the motion and pitch of `x`; `snapshots` then holds the wake of each of its steps."""
-    rows, inflow, path = [], [], []
+    rows, inflow, path, watched = [], [], [], []
     snapshots.clear()
     for _ in range(march.n):
         row, lam, _ = march.frozen_step(problem, x)
         rows.append(row)
         inflow.append(lam)
         path.append(march.position())
+        watched.append(march.monitors)
         snapshots.append(march.core.snapshot())
     rows, inflow = np.array(rows), np.array(inflow)
     psi = 2 * np.pi * rows.ravel() / march.n
     passages = model.core.passages(problem, x, psi, inflow.reshape(psi.size, -1))
     shape = (march.n, model.n_blades, -1)
     passages = {name: values.reshape(shape) for name, values in passages.items()}
-    return Revolution(rows, passages, inflow, np.array(path), x)
+    return Revolution(
+        rows,
+        passages,
+        inflow,
+        np.array(path),
+        x,
+        vortex_blade_distance=min(each["vortex_blade_distance"] for each in watched),
+        max_displacement=max(each["max_displacement"] for each in watched),
+    )
 
 
 def by_azimuth(rows: np.ndarray, values: np.ndarray, n: int) -> np.ndarray:
@@ -321,10 +330,8 @@ def solution(
         return start
     if not model.is_marching:
         return on_relaxation(model, start, progress)
-    relaxation, regime = trim_model(model.inflow), model.condition.regime(model.tip_speed)
-    if regime != "forward":
-        relaxation = replace(relaxation, relaxation=REGIME_OPTIONS[regime]["relaxation"])
-    tumbling = regime != "forward" and model.inflow.trailers == "full-span"
+    relaxation = trim_model(model.inflow)
+    tumbling = model.condition.regime(model.tip_speed) != "forward" and model.inflow.trailers == "full-span"
     if tumbling:
         relaxation = replace(relaxation, **START)
     relaxed = StandModel.build(model.aircraft, model.condition, relaxation, model.n_harmonics, model.blade_model)

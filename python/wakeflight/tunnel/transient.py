@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..errors import InputError, NumericalFailure
+from ..monitors import Places, failures, rotor
 from ..progress import Progress, Silent
 from ..units import quantity
 from .condition import within
@@ -75,6 +76,11 @@ class Recorder:
         for name, value in values.items():
             self.rows.setdefault(name, []).append(np.asarray(value))
 
+    @property
+    def n_recorded(self) -> int:
+        """Instants kept."""
+        return len(self.rows.get("time", ()))
+
     def arrays(self) -> dict[str, np.ndarray]:
         """Everything along time first."""
         return {name: np.array(rows) for name, rows in self.rows.items()}
@@ -106,7 +112,9 @@ def transient(
         for _ in _march(stand, moved, step, n_steps, kept):
             progress.advance(1, "")
     except ArithmeticError as reason:
-        failure = f"transient on the stand, t = {kept.rows['time'][-1]:.4f} s: {reason}"
+        failure = f"transient on the stand, t = {step * kept.n_recorded:.4f} s: {reason}"
+        if not kept.n_recorded:
+            raise NumericalFailure(failure) from reason
     arrays = {**kept.arrays(), "station": model.stations / stand.radius}
     if "wake" in arrays:
         arrays["age"] = 2 * np.pi / model.steps_per_revolution * np.arange(arrays["wake"].shape[2])
@@ -157,6 +165,7 @@ def _record(
     force, moment = passages["aero_force"].sum(axis=0), passages["aero_moment"].sum(axis=0)
     flap, lead = model.core.equivalent_angles(np.ascontiguousarray(motion[0]))
     n = model.stations.size
+    _check(stand, air.inflow[:, :n], passages["mach"], psi, collective)
     scale = model.dynamic_pressure_area
     kept.add(
         time=t,
@@ -176,3 +185,20 @@ def _record(
         **{name: passages[name] for name in ("circulation", "cl", "alpha")},
         **air.kept(),
     )
+
+
+def _check(stand: Tunnel, inflow: np.ndarray, mach: np.ndarray, psi: np.ndarray, collective: float) -> None:
+    """End where an instant is beyond what the motion of the rotor can give."""
+    model, condition = stand.model, stand.model.condition
+    velocity = np.asarray(condition.velocity) / model.tip_speed
+    theta = [collective, stand.theta_1c, stand.theta_1s]
+    usual, bound = model.bounds.inflow(velocity, theta)
+    section = model.bounds.section(velocity, theta)
+    fastest = model.bounds.mach(np.linalg.norm(condition.velocity), np.linalg.norm(condition.rates), section)
+    places = Places(model.stations / stand.radius, psi)
+    watched = (
+        rotor.induced_velocity(inflow, usual, bound, places),
+        rotor.mach_number(mach, fastest, np.inf, places),
+    )
+    if failed := failures(watched):
+        raise ArithmeticError("; ".join(failed))

@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""The monitors of a flight: of every sample while it flies, and of the whole once it has ended."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .errors import NumericalFailure
+from .inflow import DynamicInflow, RelaxationWake
+from .limits import stall_angles
+from .model import Model
+from .monitors import Monitor, Places, airframe, rotor
+from .trim_monitors import table_end
+
+if TYPE_CHECKING:
+    from .recorder import Recorder
+
+
+def check_sample(
+    model: Model, t: float, y: np.ndarray, stick: np.ndarray, azimuth: np.ndarray, inflow: np.ndarray, mach: np.ndarray
+) -> None:
+    """End the flight at a sample that the motion of the rotor cannot give; inflow and mach (n_blades, n_stations)."""
+    bounds = model.bounds
+    u, v, w, p, q, r = y[:6].tolist()
+    speed, rate = math.sqrt(u * u + v * v + w * w), math.sqrt(p * p + q * q + r * r)
+    largest = max(inflow.max(), -inflow.min())
+    # within these in any motion: no need to look closer
+    if largest <= bounds.least_inflow and mach.max() <= bounds.least_mach(speed, rate):
+        return
+    places = Places(bounds.station, azimuth[None], np.array([t]))
+    velocity = np.asarray(model.core.hub(y)[0]) / model.tip_speed
+    theta = model.pitch_controls(stick)[[2, 0, 1]]
+    _, bound = bounds.inflow(velocity, theta)
+    fastest = bounds.mach(speed, rate, bounds.section(velocity, theta))
+    if largest > bound:
+        raise NumericalFailure(rotor.beyond_motion(largest, bound, places.of(np.abs(inflow)[None])))
+    if mach.max() > fastest:
+        raise NumericalFailure(rotor.faster_than_motion(mach.max(), fastest, places.of(mach[None])))
+
+
+def monitors(run: Recorder) -> tuple[Monitor, ...]:
+    """Everything that is watched of a flight, over all that was recorded."""
+    n, model, aircraft = run.n_recorded, run.model, run.start.aircraft
+    if n == 0:
+        return ()
+    time, y, stick = run.time[:n], run.state[:n], run.stick[:n]
+    tables = model.rotor_tables["airfoil"]
+    places = Places(model.bounds.station, run.azimuth[:n], time)
+    fields = {name: run.blade[name][:n] for name in ("inflow", "mach", "alpha")}
+    velocity = np.array([model.core.hub(row)[0] for row in y]) / model.tip_speed
+    mu, mu_z = np.hypot(velocity[:, 0], velocity[:, 1]), -velocity[:, 2]
+    theta = np.array([model.pitch_controls(row) for row in stick])[:, [2, 0, 1]]
+    usual, bound = model.bounds.inflow(velocity, theta)
+    section = model.bounds.section(velocity, theta)
+    fastest = model.bounds.mach(np.linalg.norm(y[:, :3], axis=1), np.linalg.norm(y[:, 3:6], axis=1), section)
+    tip_mach = model.tip_speed / model.speed_of_sound
+    passage = model.steps_per_revolution // model.n_blades
+    names = ("lateral", "longitudinal", "collective", "pedal")
+    inches = dict(zip(names, stick.T / 0.0254, strict=True))
+    engine = rotor.over_passage(run.scalars["power"][:n], passage)
+    found = [
+        rotor.induced_velocity(fields["inflow"], usual, bound, places),
+        rotor.mach_number(fields["mach"], fastest, table_end(tables), places),
+        rotor.angle_of_attack(fields["alpha"], places),
+        rotor.stall(
+            stall_angles(tables), fields["alpha"], fields["mach"], model.area_weights, tip_mach, places, passage
+        ),
+        rotor.axial_flow(mu, mu_z, run.scalars["ct"][:n], isinstance(model.inflow, DynamicInflow), time),
+        *airframe.sticks(inches, aircraft.stick_travel_in, time),
+        airframe.power(engine, aircraft.limits.power, time),
+        airframe.ground(y[:, 12], run.start.condition.altitude, time),
+    ]
+    return (*found, *_of_wake(run, time))
+
+
+def _of_wake(run: Recorder, time: np.ndarray) -> list[Monitor]:
+    """What a free wake adds: its vortices, its nodes, its inner solves."""
+    if isinstance(run.model.inflow, DynamicInflow):
+        return []
+    n, counted = run.n_recorded, run.counters()
+    found: list[Monitor] = []
+    distance = run.vortex_distance()
+    if distance is not None:
+        found.append(rotor.vortex_distance(distance))
+        found.append(rotor.node_motion(run.scalars["max_displacement"][:n], run.model.rotor["radius"], time))
+    if isinstance(run.model.inflow, RelaxationWake):
+        found.append(rotor.unrenewed(counted["unconverged_revolutions"], counted["relaxation_updates"]))
+    return found

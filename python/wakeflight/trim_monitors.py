@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""The monitors of a trim: its maps, sticks, power and attitude against what models and motion allow."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .inflow import DynamicInflow
+from .limits import stall_angles
+from .model import CompiledRotor
+from .monitors import Monitor, Places, airframe, rotor, vortices
+from .trim_limits import TAIL_LOADING, tail_loading
+from .trim_results import instants, mean_outputs
+
+if TYPE_CHECKING:
+    from .trim import Trim
+    from .wake_trim import WakeInTrim
+
+
+def monitors(start: Trim) -> tuple[Monitor, ...]:
+    """Everything that is watched of a trim."""
+    model, mean = start.model, mean_outputs(start)
+    tables = model.rotor_tables["airfoil"]
+    places = disk_places(model, start.inflow_map.shape[0])
+    alpha, mach = np.empty_like(start.inflow_map), np.empty_like(start.inflow_map)
+    for rows, out in instants(start):
+        alpha[rows], mach[rows] = out["alpha"], out["mach"]
+    y = start.state()
+    velocity = np.asarray(model.core.hub(y)[0]) / model.tip_speed
+    mu, mu_z = mean["mu"], -float(velocity[2])
+    theta = start.pitch_controls
+    cyclic = float(np.hypot(theta["theta_1c"], theta["theta_1s"]))
+    pitch = [theta[name] for name in ("theta_0", "theta_1c", "theta_1s")]
+    usual, bound = model.bounds.inflow(velocity, pitch)
+    section = model.bounds.section(velocity, pitch)
+    fastest = model.bounds.mach(np.linalg.norm(y[:3]), np.linalg.norm(y[3:6]), section)
+    tip_mach = model.tip_speed / model.speed_of_sound
+    stalled = rotor.stall(stall_angles(tables), alpha, mach, model.area_weights, tip_mach, places)
+    at_75 = theta["theta_0"] + float(np.interp(0.75, model.bounds.station, model.bounds.twist))
+    why = (
+        f"mu = {mu:.3f}, C_T/sigma = {mean['ct'] / start.aircraft.solidity:.3f}, "
+        f"{100 * stalled.values['stalled_share']:.0f} % of the disk beyond stall"
+    )
+    condition = start.condition
+    found = [
+        rotor.induced_velocity(start.inflow_map, usual, bound, places),
+        rotor.mach_number(mach, fastest, table_end(tables), places),
+        rotor.angle_of_attack(alpha, places),
+        stalled,
+        rotor.pitch({"collective": at_75, "cyclic": cyclic}, float(np.arctan2(-mu_z, 0.75)), why),
+        rotor.axial_flow(mu, mu_z, mean["ct"], isinstance(start.inflow, DynamicInflow)),
+        *airframe.sticks(start.stick, start.aircraft.stick_travel_in),
+        airframe.tail_rotor(tail_loading(model, start.problem, start.x), TAIL_LOADING),
+        airframe.power(mean["power"], start.aircraft.limits.power),
+        airframe.attitude(start.roll, start.pitch, condition.bank is not None or condition.turn_rate != 0.0),
+        airframe.sideslip(y[:2], condition.sideslip is not None),
+    ]
+    if start.wake is not None:
+        found.append(rotor.vortex_distance(closest_vortex(model, start.wake)))
+    return tuple(found)
+
+
+def disk_places(model: CompiledRotor, n_azimuths: int) -> Places:
+    """Places of a map of `n_azimuths` on the stations of `model`."""
+    return Places(model.stations / model.rotor["radius"], 2 * np.pi * np.arange(n_azimuths) / n_azimuths)
+
+
+def table_end(airfoil: dict) -> float:
+    """Mach number to which all section tables reach."""
+    return min(airfoil[name]["y"][-1] for name in ("cl", "cd", "cm"))
+
+
+def closest_vortex(model: CompiledRotor, wake: WakeInTrim) -> float:
+    """Smallest distance of a tip vortex of a relaxed wake from a blade, in core radii."""
+    radius, blade = model.rotor["radius"], model.rotor_tables["blade"]
+    step = 2 * np.pi / model.steps_per_revolution
+    return vortices.closest(
+        wake.relaxation.position(),
+        wake.relaxation.core_radius(),
+        wake.psi,
+        model.n_blades,
+        model.rotor["hinge_offset"],
+        blade["root_cutout"],
+        model.inflow.release_radius * radius,
+        radius,
+        round(model.inflow.near_wake_angle / step),
+    )

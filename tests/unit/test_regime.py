@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""The regime of a rotor, and the options of a wake that depend on it: the same in trim, flight and on the stand."""
+
+import inspect
+
+import pytest
+from typer.testing import CliRunner
+
+import wakeflight as wf
+from wakeflight import cli, inflow, regime
+from wakeflight.condition import condition_for
+from wakeflight.flight import flight_model
+from wakeflight.inflow import trim_model
+from wakeflight.model import Model
+from wakeflight.tunnel.condition import StandCondition, hub_velocity
+from wakeflight.tunnel.model import StandModel
+
+KINDS = (wf.RelaxationWake, wf.TimeMarchingWake)
+
+
+def left_to_the_regime(model):
+    return {name: getattr(model, name) for name in regime.BY_REGIME if hasattr(model, name)}
+
+
+def numbers(kind, name):
+    return {option: regime.BY_REGIME[option][name] for option in left_to_the_regime(kind())}
+
+
+@pytest.mark.parametrize(
+    ("in_plane", "climb", "name"),
+    [
+        (0.0, 0.0, "hover"),
+        (5.9, 0.0, "hover"),
+        (5.9, 20.0, "hover"),
+        (5.9, -0.1, "descent"),
+        (6.0, 0.0, "forward"),
+        (6.0, -20.0, "forward"),
+        (-6.0, 0.0, "forward"),
+    ],
+)
+def test_regime_follows_from_the_advance_ratio_and_from_which_side_the_air_comes(in_plane, climb, name):
+    assert regime.regime(in_plane, climb, 200.0) == name
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("name", regime.REGIMES)
+def test_only_what_was_not_given_is_left_to_the_regime(kind, name):
+    assert left_to_the_regime(kind().resolved(name)) == numbers(kind, name)
+    # the report's case: other options given, hover's turns and far wake all the same
+    mixed = kind(tip_strength="max", inboard_wake="sheet").resolved(name)
+    assert left_to_the_regime(mixed) == numbers(kind, name)
+    given = kind(turns=3.0, far_wake_turns=1, sheet_factor=1.1).resolved(name)
+    assert (given.turns, given.far_wake_turns, given.sheet_factor) == (3.0, 1, 1.1)
+
+
+def test_a_wake_closed_by_a_cylinder_has_no_repeated_turns():
+    closed = wf.RelaxationWake(far_wake="cylinder").resolved("hover")
+    assert (closed.turns, closed.far_wake_turns) == (5.0, 0)
+
+
+def test_an_option_left_open_is_no_number_for_the_core(uh60a):
+    with pytest.raises(wf.InputError, match="turns = None: must be a number here"):
+        wf.RelaxationWake().core_options(uh60a)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize(
+    ("speed", "flight_path", "name", "stand"),
+    [
+        ("0 kt", "0 deg", "hover", {}),
+        ("10 m/s", "90 deg", "hover", {"climb": "10 m/s"}),
+        ("10 m/s", "-90 deg", "descent", {"climb": "-10 m/s"}),
+        ("10 kt", "0 deg", "hover", {"speed": "10 kt"}),
+        ("20 kt", "0 deg", "forward", {"speed": "20 kt"}),
+        ("80 kt", "-6 deg", "forward", {"speed": "80 kt", "shaft_angle": "6 deg"}),
+    ],
+)
+def test_trim_and_stand_take_the_same_numbers_in_the_same_regime(uh60a, kind, speed, flight_path, name, stand):
+    condition = condition_for(uh60a, speed=speed, flight_path=flight_path)
+    flown = Model.build(uh60a, condition, kind()).inflow
+    assert left_to_the_regime(flown) == numbers(kind, name)
+    tip_speed = uh60a.rotor.omega * uh60a.rotor.radius
+    velocity = hub_velocity(**{"speed": "0 kt", "shaft_angle": "0 deg", "climb": "0 m/s"} | stand)
+    on_stand = StandCondition(velocity, (0.0, 0.0, 0.0), 1.2, 340.0, (("collective", 0.1),) * 3, (), {})
+    assert on_stand.regime(tip_speed) == name
+    assert left_to_the_regime(StandModel.build(wf.load_rotor("uh60a"), on_stand, kind(), 8).inflow) == numbers(
+        kind, name
+    )
+
+
+class Trimmed:
+    """What `flight_model` asks of a trim."""
+
+    def __init__(self, aircraft, condition, inflow):
+        self.aircraft, self.condition = aircraft, condition
+        self.model = Model.build(aircraft, condition, trim_model(inflow))
+        self.inflow = self.model.inflow
+
+
+@pytest.mark.parametrize("given", [{}, {"turns": 6.0}, {"tip_strength": "max"}])
+@pytest.mark.parametrize("speed", ["0 kt", "80 kt"])
+def test_a_flight_marches_the_wake_its_trim_relaxed(uh60a, speed, given):
+    wake = wf.TimeMarchingWake(**given)
+    start = Trimmed(uh60a, condition_for(uh60a, speed=speed, flight_path="0 deg"), wake)
+    for asked in (wake, "relaxation", "time-marching", None):
+        flown = flight_model(start, asked).inflow
+        for name in ("turns", "far_wake_turns", "sheet_factor", "tip_strength"):
+            assert getattr(flown, name) == getattr(start.inflow, name)
+    with pytest.raises(wf.InputError, match="must be that of the trim"):
+        flight_model(start, wf.TimeMarchingWake(**given | {"turns": 3.0}))
+
+
+def test_help_names_the_numbers_of_every_regime():
+    assert regime.described("turns") == "by regime: 4 forward, 5 hover and climb, 8 axial descent"
+    shown = CliRunner().invoke(cli.app, ["trim", "--help"], env={"COLUMNS": "300"}).output
+    assert regime.described("turns") in " ".join(shown.split())
+    # the docstrings of the options, which documentation shows, name the numbers of the table
+    source = " ".join(inspect.getsource(inflow).split())
+    for name, values in regime.BY_REGIME.items():
+        text = regime.described(name).removeprefix("by regime: ")
+        assert text in source, name
+        assert set(values) == set(regime.REGIMES)
