@@ -21,8 +21,8 @@ import wakeflight as wf
 from wakeflight.model import Model
 from wakeflight.trim import Trim
 from wakeflight.trim_equations import dynamic_map
-from wakeflight.trim_solve import solve_condition, solve_on_map
 from wakeflight.trim_results import FIELDS, first_harmonics, instants
+from wakeflight.trim_solve import solve_condition, solve_on_map
 from wakeflight.wake_trim import WakeInTrim
 
 PASSES = 3

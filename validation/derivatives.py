@@ -1,26 +1,29 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """Six-degree-of-freedom derivatives of an aircraft about a trim with dynamic inflow, the rotor quasi-static.
 
-The trim equations are averages over a revolution: six balances, and what rotor and inflow need to be periodic. Perturb speed, rates,
-attitude and controls, let blades and inflow find their new periodic state, and the balances say how the body accelerates:
+The trim equations are averages over a revolution: six balances, and what rotor and inflow need to be periodic. Perturb speed,
+rates, attitude and controls, let blades and inflow find their new periodic state, and the balances say how the body accelerates:
 
     df = (F_b - F_s S_s^-1 S_b) d(u, w, q, theta, v, p, phi, r, controls),    x_dot = M^-1 df,
 
 F the balances, S the equations of rotor and inflow, index s their own unknowns, b those of the body. Blades and inflow follow at
-once: what they need a few tenths of a second for (flap regression, lag) is not in it. M is the mass matrix that goes with it: the gross
-aircraft, blades as a point mass at the hub, and about the shaft the blades' whole polar inertia, because rotor speed is constant against
-the airframe.
+once: what they need a few tenths of a second for (flap regression, lag) is not in it. M is the mass matrix that goes with it:
+the gross aircraft, blades as a point mass at the hub, and about the shaft the blades' whole polar inertia, because rotor speed
+is constant against the airframe.
+
+A stabilizer with a schedule follows it at once, as in trim.
 
 States and controls are those of HELISIM's matrices: u, w, q, theta, v, p, phi, r [m/s, rad/s, rad]; theta_0, theta_1s, theta_1c,
 theta_tr [rad at the blade].
 """
 
-from dataclasses import dataclass
+from copy import copy
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from wakeflight import _core
 from wakeflight.trim import Trim
+from wakeflight.trim_equations import trim_problem
 
 STATES = ("u", "w", "q", "theta", "v", "p", "phi", "r")
 CONTROLS = ("theta_0", "theta_1s", "theta_1c", "theta_tr")
@@ -77,19 +80,19 @@ def balances(
     north, east, down = rotation(roll, pitch, 0.0) @ velocity
     speed = float(np.linalg.norm(velocity))
     climb = float(np.arctan2(-down, np.hypot(north, east)))
-    n_harmonics, n_azimuths = _fineness(trim)
-    problem = _core.TrimProblem(speed, climb, turn_rate, "bank", 0.0, n_harmonics, n_azimuths, None, 0.0)
+    condition = copy(trim.condition)
+    for name, value in (("speed", speed), ("flight_path", climb), ("turn_rate", turn_rate)):
+        object.__setattr__(condition, name, value)
+    problem = trim_problem(replace(trim.model, condition=condition), None, _harmonics(trim))
     y = trim.x.copy() if x is None else x.copy()
     y[4:7] = roll, pitch, -np.arctan2(east, north)
     return trim.model.core.trim_residual(problem, y)
 
 
-def _fineness(trim: Trim) -> tuple[int, int]:
-    """Harmonics and azimuths of the trim's own problem."""
+def _harmonics(trim: Trim) -> int:
+    """Harmonics of the blades' motion in the trim's own problem."""
     modes, _, _ = trim.model.core.trim_layout(trim.problem)
-    n_harmonics = (modes[1] - modes[0] - 1) // 2
-    n = trim.model.steps_per_revolution
-    return n_harmonics, n * int(np.ceil(4 * n_harmonics / n))
+    return (modes[1] - modes[0] - 1) // 2
 
 
 def linear_model(trim: Trim, step: float = 1.0, inertia: np.ndarray | None = None) -> LinearModel:
@@ -183,8 +186,8 @@ def _assembled(trim: Trim, a: np.ndarray, b: np.ndarray, inertia: np.ndarray) ->
 def periodic_roots(trim: Trim, steps: int = 360) -> np.ndarray:
     """Characteristic exponents [1/s] of the whole aircraft about its trim with dynamic inflow, largest real part first.
 
-    The other way to the same modes: every blade, the inflow and the body, linearised along the trimmed revolution and carried over it
-    by the trapezoidal rule. Four exponents are zero (position and heading) and a fifth (length of the quaternion).
+    The other way to the same modes: every blade, the inflow and the body, linearised along the trimmed revolution and carried
+    over it by the trapezoidal rule. Four exponents are zero (position and heading) and a fifth (length of the quaternion).
     """
     core, n = trim.model.core, trim.model.layout["size"]
     period = 2 * np.pi / trim.model.omega

@@ -3,8 +3,8 @@
 
 Moments are over dynamic pressure [m3], nose up and nose right positive, about the table's reference point: a pitching moment
 M(alpha) cos(beta) and a yawing moment N(beta), written into the columns of the fuselage's table. Two of them come from the same
-appendix of the source (Padfield, 4B): polynomials for small angles, stated in N m for 30.48 m/s, and piecewise linear coefficients on
-plan or side area and length that the source calls typical of a wide range of fuselages.
+appendix of the source (Padfield, 4B): polynomials for small angles, stated in N m for 30.48 m/s, and piecewise linear ones
+as coefficients on plan or side area and length, which the source calls typical of a wide range of fuselages.
 """
 
 import shutil

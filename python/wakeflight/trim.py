@@ -37,6 +37,8 @@ class Trim:
     seconds: float
     history: list[dict[str, float]] = field(default_factory=list)
     counters: dict[str, int] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
+    """What is to be said of the way to it: a wake that rests in the mean alone."""
 
     @property
     def aircraft(self) -> Aircraft:
@@ -127,7 +129,7 @@ class Trim:
     @property
     def warnings(self) -> tuple[str, ...]:
         """What is doubtful in the aircraft's data, and what lies beyond a limit of aircraft or model."""
-        return (*self.aircraft.warnings, *warnings(self.monitors))
+        return (*self.aircraft.warnings, *self.notes, *warnings(self.monitors))
 
     @property
     def failures(self) -> tuple[str, ...]:
@@ -196,18 +198,25 @@ def trim(
     model = Model.build(aircraft, condition, trim_model(chosen))
     inflow_map, _ = dynamic_map(simple, problem, x, model.steps_per_revolution)
     x = np.delete(x, slice(7, 10))
-    wake = WakeInTrim(model, inflow_map)
-    problem, x, inflow_map, history = on_relaxation(
-        model, wake, x, inflow_map, n_harmonics, progress, control_tolerance
-    )
-    circulation = wake.circulation
+    wake = WakeInTrim(model, inflow_map, steadied=True)
+    found = on_relaxation(model, wake, x, inflow_map, n_harmonics, progress, control_tolerance)
     if isinstance(chosen, TimeMarchingWake):
         model = Model.build(aircraft, condition, chosen)
-        problem, x, inflow_map, circulation = on_marching(
-            model, problem, x, wake, n_harmonics, progress, control_tolerance
+        found = on_marching(model, found, wake, n_harmonics, progress, control_tolerance)
+    return physical(
+        Trim(
+            model,
+            found.problem,
+            found.x,
+            found.inflow_map,
+            found.circulation,
+            wake,
+            time.perf_counter() - started,
+            found.history,
+            dict(wake.counters),
+            found.notes,
         )
-    seconds = time.perf_counter() - started
-    return physical(Trim(model, problem, x, inflow_map, circulation, wake, seconds, history, dict(wake.counters)))
+    )
 
 
 def physical(found: Trim) -> Trim:

@@ -59,7 +59,7 @@ def tolerances(model: Model, problem: _core.TrimProblem, n: int) -> np.ndarray:
 
 
 def scales(model: Model, problem: _core.TrimProblem, n: int) -> np.ndarray:
-    """What counts as a small change of every unknown (n,): 0.1 in of stick, 1 deg, 1e-3 of inflow, 0.1 deg of a blade harmonic."""
+    """A small change of every unknown (n,): 0.1 in of stick, 1 deg, 1e-3 of inflow, 0.1 deg of a blade harmonic."""
     modes, inflow, _ = model.core.trim_layout(problem)
     scale = np.empty(n)
     scale[:4], scale[4:7], scale[inflow : modes[0]] = 0.1 * INCH, np.radians(1.0), 1e-3

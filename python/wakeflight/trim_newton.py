@@ -72,9 +72,8 @@ def newton(
         while True:
             trial = x + share * step * scale
             f_trial = core.trim_residual(problem, trial)
-            if np.all(np.isfinite(f_trial)):
-                if np.linalg.norm(inverse @ f_trial) <= (1.0 - 0.25 * share) * length:
-                    break
+            if np.all(np.isfinite(f_trial)) and np.linalg.norm(inverse @ f_trial) <= (1.0 - 0.25 * share) * length:
+                break
             share *= 0.5
             if share < LEAST_SHARE:
                 break

@@ -25,8 +25,8 @@ def first_guess(model: Model, problem: _core.TrimProblem) -> np.ndarray:
     """Unknowns of the trim in closed form.
 
     C_T = sigma a/2 [theta_75 (1/3 + mu^2/2) - lambda/2]; the cyclic holds two degrees of forward flapping against
-    (8/3 theta_75 - 2 lambda) mu, whatever side the wind comes from; drag of four per cent of the weight at 80 kt, growing with the
-    square of the speed; a turn banks by its lateral acceleration.
+    (8/3 theta_75 - 2 lambda) mu, whatever side the wind comes from; drag of four per cent of the weight at 80 kt, growing with
+    the square of the speed; a turn banks by its lateral acceleration.
     """
     modes, inflow, tail = model.core.trim_layout(problem)
     x = np.zeros(modes[-1])

@@ -22,13 +22,29 @@ LEAST_SHARE = 0.05
 """Least share of a change of inflow that is taken."""
 FIRST_TURN_TOLERANCE = 1e-3
 """Change of the first turn's geometry over R in a sweep below which it counts as settled."""
+THRUST_TOLERANCE = 1e-3
+"""Relative change of thrust in an iteration below which it counts as settled."""
+PATIENCE = 10
+"""Iterations without a tenth of progress after which smaller steps of the geometry are taken."""
+LEAST_RELAXATION = 0.25
+"""Least share of the relaxation asked for that is taken."""
+SETTLING = 5
+"""Iterations of a pass that are not part of its mean."""
+WANDER = 5.0
+"""Largest motion of the inflow about its mean, over what a change of it may be, with which a wake rests in the mean."""
 
 
 class WakeInTrim:
     """Relaxation wake of a trimmed or steady flight, with its periodic circulation."""
 
-    def __init__(self, model: CompiledRotor, inflow_map: np.ndarray):
+    def __init__(self, model: CompiledRotor, inflow_map: np.ndarray, steadied: bool = False):
         self.model = model
+        self.steadied = steadied
+        # share of the relaxation asked for; the tolerances of what a sweep changes shrink with it
+        self.step_share = 1.0
+        # a wake that circles: mean far inflow of the last pass, its change since the pass before, the motion about it
+        self.mean_far: np.ndarray | None = None
+        self.mean_change = self.wander = np.inf
         self.n = model.steps_per_revolution
         self.psi = 2 * np.pi * np.arange(self.n) / self.n
         self.lambda_far = inflow_map.copy()
@@ -73,6 +89,8 @@ class WakeInTrim:
         thrust = self._thrust()
         self.converged = False
         share, least = options.inflow_relaxation, np.inf
+        missing, since = np.inf, 0
+        passed: list[np.ndarray] = []
         for iteration in range(max_iterations):
             self.relaxation.set_state(*hub, flap, lead, self.circulation)
             self.relaxation.set_mean_inflow(model.carrying_inflow(self.circulation, hub[0]))
@@ -96,15 +114,82 @@ class WakeInTrim:
                 "first_turn_change": float(norms[-1, 1]),
                 "iterations": iteration + 1,
             }
-            if (
-                rms < options.inflow_tolerance
-                and thrust_change < 1e-3
-                and self.last["first_turn_change"] < FIRST_TURN_TOLERANCE
-            ):
+            now = max(self.excess().values())
+            if now < 1.0:
                 self.converged = True
                 break
+            missing, since = (now, 0) if now < 0.9 * missing else (missing, since + 1)
+            if self.steadied and since >= PATIENCE and self.step_share > LEAST_RELAXATION:
+                # rolled-up wakes circle about their answer: shorter steps of the geometry bring them to it
+                self.step_share = max(0.5 * self.step_share, LEAST_RELAXATION)
+                self.relaxation.set_relaxation(self.step_share * options.relaxation)
+                missing, since = np.inf, 0
+            elif self.steadied and self.step_share == LEAST_RELAXATION and iteration >= SETTLING:
+                passed.append(self.lambda_far)
+        self.mean_change = self.wander = np.inf
+        if len(passed) >= PATIENCE and not self.converged:
+            self._take_mean(passed, y, stick, q, q_dot)
         self.counters["wake_segment_evaluations"] = int(self.relaxation.segment_evaluations)
         return self.converged
+
+    def _take_mean(
+        self, passed: list[np.ndarray], y: np.ndarray, stick: np.ndarray, q: np.ndarray, q_dot: np.ndarray
+    ) -> None:
+        """Hold the mean of the far inflows that a pass went through, with the circulation that belongs to it."""
+        mean = np.mean(passed, axis=0)
+
+        def rms(change: np.ndarray) -> float:
+            return float(np.sqrt(np.mean((change**2) @ self.model.area_weights)))
+
+        self.wander = max(rms(each - mean) for each in passed)
+        if self.mean_far is not None:
+            self.mean_change = rms(mean - self.mean_far)
+        self.mean_far = self.lambda_far = mean
+        self._solve_circulation(y, stick, q, q_dot)
+
+    @property
+    def rests_in_the_mean(self) -> bool:
+        """Whether the wake circles closely about an inflow that no longer moves."""
+        allowed = self.model.inflow.inflow_tolerance
+        return self.mean_change < allowed and self.wander < WANDER * allowed
+
+    def excess(self) -> dict[str, float]:
+        """What the last iteration changed over what is allowed, below one where it has settled.
+
+        Geometry and inflow move in proportion to the step that is taken of the geometry: less of it is no rest.
+        """
+        allowed = self.allowed()
+        return {name: self.last[name] / allowed[name] for name in allowed}
+
+    def missing(self) -> float:
+        """How far the wake is from rest, in multiples of what is allowed: by itself, or in the mean where it circles."""
+        allowed = self.model.inflow.inflow_tolerance
+        return min(max(self.excess().values()), max(self.mean_change, self.wander / WANDER) / allowed)
+
+    def unrest(self) -> list[str]:
+        """What has not settled, with figures."""
+        excess, allowed = self.excess(), self.allowed()
+        said = {
+            "inflow_change": "inflow changes by {:.1e} of the tip speed an iteration (allowed {:.1e})",
+            "thrust_change": "circulation: thrust changes by {:.1e} of itself an iteration (allowed {:.1e})",
+            "first_turn_change": "wake geometry: the first turn moves by {:.1e} R a sweep (allowed {:.1e})",
+        }
+        texts = [text.format(self.last[name], allowed[name]) for name, text in said.items() if excess[name] >= 1.0]
+        if np.isfinite(self.wander):
+            tolerance = self.model.inflow.inflow_tolerance
+            texts.append(
+                f"the wake circles: inflow within {self.wander:.1e} of its mean (allowed {WANDER * tolerance:.1e}), which "
+                f"moves by {self.mean_change:.1e} between passes (allowed {tolerance:.1e})"
+            )
+        return texts
+
+    def allowed(self) -> dict[str, float]:
+        """Largest changes in an iteration that count as rest: inflow over the tip speed, thrust, first turn over R."""
+        return {
+            "inflow_change": self.step_share * self.model.inflow.inflow_tolerance,
+            "thrust_change": THRUST_TOLERANCE,
+            "first_turn_change": self.step_share * FIRST_TURN_TOLERANCE,
+        }
 
     def _solve_circulation(
         self,

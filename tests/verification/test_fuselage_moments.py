@@ -29,8 +29,9 @@ def slopes(name):
 
 @pytest.mark.parametrize("name", SIZES)
 def test_moment_slopes_lie_within_slender_body_theory(name):
-    # In crossflow a section of width b moves rho pi b^2/4 of air a metre, so the moment's slope is q pi/2 times the integral of b^2,
-    # itself at most the greatest width times the plan area. Short bodies, separation and a tail boom in the crossflow take from it.
+    # In crossflow a section of width b moves rho pi b^2/4 of air a metre, so the moment's slope is q pi/2 times the integral
+    # of b^2, itself at most the greatest width times the plan area. Short bodies, separation and a tail boom in the crossflow
+    # take from it.
     width, depth, plan, side = SIZES[name]
     pitch, yaw = slopes(name)
     assert 0.0 < pitch < 0.5 * np.pi * width * plan

@@ -1,4 +1,4 @@
-"""BO-105 derivatives about level flight, blades and inflow quasi-static, beside HELISIM's; and what the fuselage's moments do to them."""
+"""BO-105 derivatives about level flight, blades and inflow quasi-static, beside HELISIM's; what the fuselage's moments do."""
 
 import tempfile
 from pathlib import Path
@@ -88,8 +88,9 @@ def variant(name, aircraft):
         model = linear_model(start)
         plain = linear_model(start, inertia=gross_inertia(start))
         yield (
-            f"Moments {name}, {speed} kt: N_v {plain['N_v']:.3f}, M_w {model['M_w']:.3f}, M_u {model['M_u']:.4f}, longitudinal cyclic "
-            f"{np.degrees(start.theta_1s):.2f} deg, pitch {np.degrees(start.pitch):.2f} deg; roots {listed(model.eigenvalues[2:])}."
+            f"Moments {name}, {speed} kt: N_v {plain['N_v']:.3f}, M_w {model['M_w']:.3f}, M_u {model['M_u']:.4f}, "
+            f"longitudinal cyclic {np.degrees(start.theta_1s):.2f} deg, pitch {np.degrees(start.pitch):.2f} deg; "
+            f"roots {listed(model.eigenvalues[2:])}."
         )
 
 
