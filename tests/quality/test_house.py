@@ -30,7 +30,7 @@ PYTHON_ORDER = (
     {"_core", "errors", "schema", "regime", "disk"},
     {"units", "references", "vortex", "progress", "limits", "text"},
     {"condition", "inflow", "results", "maneuvers", "wing", "monitors"},
-    {"aircraft"},
+    {"aircraft", "thinning"},
     {"model", "modes"},
     {"integrators", "exchange"},
     {"wake_trim", "trim_results", "trim_equations"},

@@ -122,7 +122,9 @@ def _of_aircraft(aircraft: Aircraft) -> Rotor:
     data["blade"].setdefault("rigid", False)
     settings = aircraft.discretisation
     references, warnings = aircraft.references, aircraft.warnings
-    return Rotor(aircraft.name, aircraft.path, data, settings, references, fixed_reference_pitch=True, warnings=warnings)
+    return Rotor(
+        aircraft.name, aircraft.path, data, settings, references, fixed_reference_pitch=True, warnings=warnings
+    )
 
 
 def _of_file(path: Path) -> Rotor:
@@ -163,7 +165,9 @@ def _checked(spec: RotorFile, core: dict[str, Any], path: Path) -> list[str]:
         if isinstance(table, tables.TableFile):
             return table.error(f"rotor.airfoil.{name}", value, allowed)
         file = path if group.airfoil.c81 is None else group.airfoil.c81.path
-        return InputError.of(f"rotor.airfoil.{'polar' if group.airfoil.polar else 'c81'} {name}", value, allowed, file=file)
+        return InputError.of(
+            f"rotor.airfoil.{'polar' if group.airfoil.polar else 'c81'} {name}", value, allowed, file=file
+        )
 
     sections = {name: core["airfoil"][name] for name in ("cl", "cd", "cm")}
     notes = [] if group.airfoil.c81 is None else list(group.airfoil.c81.notes)

@@ -12,6 +12,9 @@ from .sections import Grid, Refuse, tip_mach_warnings
 SPEED_OF_SOUND = 340.294
 """Speed of sound [m/s] of the standard atmosphere at sea level, for what a file alone can say of Mach numbers."""
 
+SLOWEST_TIP = 0.1
+"""Least tip speed [m/s] of a rotor that is flown or tested."""
+
 STEEPEST_TWIST = 0.5 * math.pi
 """Largest built-in twist [rad] either way: beyond it the trailing edge leads."""
 
@@ -28,6 +31,8 @@ def check_rotor(
     if not tip_mach < 1.0:
         given = f"{omega:g} rad/s"
         raise refuse("omega", given, f"the tip would move at Mach {tip_mach:.2f} in sea-level air; must stay below 1")
+    if not omega * radius >= SLOWEST_TIP:
+        raise refuse("omega", f"{omega:g} rad/s", f"the tip must move at {SLOWEST_TIP:g} m/s or more")
     warnings = _geometry(group, blade, n_blades, radius)
     warnings += _structure(group, blade, omega, damper)
     if n_blades == 1:
@@ -40,7 +45,9 @@ def _geometry(group: Any, blade: dict[str, Any], n_blades: int, radius: float) -
     widest = 0.0
     for station, chord, twist in zip(blade["chord"]["x"], blade["chord"]["y"], blade["twist"]["y"], strict=True):
         if not 0.0 <= chord < radius:
-            raise table.error("chord", f"{chord:g} m at {station:.6g} m", f"must lie between 0 and the radius, {radius:.6g} m")
+            raise table.error(
+                "chord", f"{chord:g} m at {station:.6g} m", f"must lie between 0 and the radius, {radius:.6g} m"
+            )
         if not abs(twist) <= STEEPEST_TWIST:
             raise table.error("twist", f"{math.degrees(twist):g} deg at {station:.6g} m", "must lie within +-90 deg")
         if station >= cutout:
@@ -48,7 +55,9 @@ def _geometry(group: Any, blade: dict[str, Any], n_blades: int, radius: float) -
     # blades side by side cover the disk: more than that they would lie upon one another
     solidity = n_blades * widest / (math.pi * radius)
     if not solidity < 1.0:
-        raise table.error("chord", f"{widest:g} m", f"{n_blades} such blades have {solidity:.2f} of the disk's area; must be below 1")
+        raise table.error(
+            "chord", f"{widest:g} m", f"{n_blades} such blades have {solidity:.2f} of the disk's area; must be below 1"
+        )
     if solidity > 0.3:
         return [f"solidity {solidity:.2f}: blades influence one another as a cascade, which section tables do not know"]
     return []
@@ -76,9 +85,13 @@ def _structure(group: Any, blade: dict[str, Any], omega: float, damper: dict[str
     for rate, force in zip(damper["force"]["x"], damper["force"]["y"], strict=True):
         given = f"{force:g} N at {rate:g} m/s"
         if force < 0.0:
-            raise group.lag_damper.force.error("force", given, "must oppose the rate (not be negative): it would drive the blade")
+            raise group.lag_damper.force.error(
+                "force", given, "must oppose the rate (not be negative): it would drive the blade"
+            )
         if force > pull:
-            raise group.lag_damper.force.error("force", given, f"must stay below the blade's centrifugal force, {pull:.4g} N")
+            raise group.lag_damper.force.error(
+                "force", given, f"must stay below the blade's centrifugal force, {pull:.4g} N"
+            )
     return []
 
 

@@ -89,7 +89,9 @@ def _lift(grid: Grid, refuse: Refuse) -> list[str]:
         slope = lift_slope(grid, column)
         if mach > SUBSONIC and column > 0:
             if slope <= 0.0:
-                warnings.append(f"cl falls with the angle of attack at zero lift and Mach {mach:g}: {slope:.3g} per rad")
+                warnings.append(
+                    f"cl falls with the angle of attack at zero lift and Mach {mach:g}: {slope:.3g} per rad"
+                )
             continue
         # the flow turns against the lift: attached, lift grows with the angle of attack
         if not slope > 0.0:
@@ -109,7 +111,9 @@ def _moment(grid: Grid, refuse: Refuse) -> list[str]:
     signs = [_at(grid["x"], [row[0] for row in grid["values"]], angle) for angle in (-0.5 * math.pi, 0.5 * math.pi)]
     if signs[0] < -0.1 and signs[1] > 0.1:
         given = f"{signs[0]:g} at -90 deg, {signs[1]:g} at 90 deg"
-        raise refuse("cm", given, "must be nose down across the stream at 90 deg, nose up at -90 deg (nose up positive)")
+        raise refuse(
+            "cm", given, "must be nose down across the stream at 90 deg, nose up at -90 deg (nose up positive)"
+        )
     if signs[0] < -0.1 or signs[1] > 0.1:
         return [f"cm is {signs[0]:g} at -90 deg and {signs[1]:g} at 90 deg; a plate has about 0.5 and -0.5"]
     return []
@@ -132,7 +136,9 @@ def _doubtful(grids: dict[str, Grid], cd_increment: float) -> list[str]:
         gaps = [abs(a - b) for a, b in zip(grid["values"][0], grid["values"][-1], strict=True)]
         if max(gaps) > GAP:
             mach = grid["y"][gaps.index(max(gaps))]
-            warnings.append(f"{name} differs by {max(gaps):.3g} between -180 and 180 deg, the same attitude, at Mach {mach:g}")
+            warnings.append(
+                f"{name} differs by {max(gaps):.3g} between -180 and 180 deg, the same attitude, at Mach {mach:g}"
+            )
     for first, second in (("cl", "cd"), ("cl", "cm"), ("cd", "cm")):
         if grids[first] == grids[second] and any(map(any, grids[first]["values"])):
             warnings.append(f"{first} and {second} are the same table")

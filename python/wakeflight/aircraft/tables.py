@@ -279,6 +279,8 @@ def by_mach(table: TableFile) -> dict[str, list[Any]]:
         raise table.error("M...", "missing", "columns by Mach number are needed, such as M0.0, M0.3")
     ascending(table, "M...", mach)
     if mach[0] < 0.0 or mach[-1] > HIGHEST_MACH:
-        raise table.error("M...", f"{mach[0]:g} .. {mach[-1]:g}", f"Mach numbers must lie between 0 and {HIGHEST_MACH:g}")
+        raise table.error(
+            "M...", f"{mach[0]:g} .. {mach[-1]:g}", f"Mach numbers must lie between 0 and {HIGHEST_MACH:g}"
+        )
     values = [[table.columns[header][row] for header in headers] for row in range(len(alpha))]
     return {"x": alpha, "y": mach, "values": values}
