@@ -14,10 +14,11 @@ from .aircraft import Aircraft
 from .condition import FlightCondition, condition_for
 from .errors import NumericalFailure
 from .inflow import DynamicInflow, InflowModel, TimeMarchingWake, inflow_model, trim_model
-from .model import Model
+from .model import Model, flight_regime
 from .progress import Progress, Silent
+from .regime import REVOLUTIONS
 from .units import STANDARD_GRAVITY
-from .wake_trim import WakeInTrim, marching_map
+from .wake_trim import PERIODIC, WakeInTrim, marching_map
 
 INCH = 0.0254
 LINEAR_TOLERANCE = 1e-4  # m/s2
@@ -25,6 +26,7 @@ ANGULAR_TOLERANCE = 1e-4  # rad/s2
 HARMONIC_TOLERANCE = 1e-6  # rad, equivalent angle of a blade harmonic
 CONTROL_TOLERANCE = 1e-3  # rad, change of a pitch control between trims on a free wake
 MAX_OUTER = 30  # the last passes halve the change of the controls
+MAX_REVOLUTIONS = 60  # of a marching wake in trim
 
 
 @dataclass(frozen=True)
@@ -192,6 +194,7 @@ def trim(
         problem, x, inflow_map, circulation = on_marching(
             model, problem, x, wake, n_harmonics, progress, control_tolerance
         )
+        history[-1] |= wake.last
     seconds = time.perf_counter() - started
     return Trim(model, problem, x, inflow_map, circulation, wake, seconds, history, dict(wake.counters))
 
@@ -401,16 +404,59 @@ def on_marching(
     progress: Progress | Silent,
     control_tolerance: float = CONTROL_TOLERANCE,
 ) -> tuple[_core.TrimProblem, np.ndarray, np.ndarray, np.ndarray]:
-    """Trim on the time-marching wake: march a revolution at the trimmed motion, trim on its inflow, until controls rest."""
+    """Trim on the time-marching wake: march a revolution at the trimmed motion, trim on its inflow, until controls rest.
+
+    In hover and axial flight the wake does not become periodic: the trim is then on its mean inflow over the later half of the
+    revolutions marched, once the trims on the two halves of that mean are as close as controls that rest.
+    """
     march = wake.marching(model)
-    for revolution in range(60):
-        inflow_map, circulation = marching_map(march, problem, x)
+    regime = flight_regime(model.aircraft, model.condition)
+    maps, held, change = [(wake.inflow_map, wake.circulation)], wake.inflow_map, np.inf
+    for revolution in range(MAX_REVOLUTIONS):
+        maps.append(marching_map(march, problem, x))
+        latest = maps[-1][0]
+        # as on the stand: the unsteadiness of an axial wake is not taken for a change of condition
+        held = latest if regime == "forward" or revolution == 0 else 0.5 * (held + latest)
         before = model.pitch_controls(x[:4])
-        problem = trim_problem(model, inflow_map, n_harmonics)
+        problem = trim_problem(model, held, n_harmonics)
         x = solve(model, problem, x)
         change = float(np.max(np.abs(model.pitch_controls(x[:4]) - before)))
         progress.advance(1, f"marching wake: controls {change:.1e} rad")
-        if revolution > 2 and change < 0.1 * control_tolerance:
+        n = averaged_revolutions(model, regime, maps, change, control_tolerance)
+        if n > 1:
+            parts = [mean_trim(model, part, x, n_harmonics) for part in (maps[-n : -(n // 2)], maps[-(n // 2) :])]
+            change = 0.5 * float(np.max(np.abs(np.subtract(*(model.pitch_controls(part[1][:4]) for part in parts)))))
+        if n and change < control_tolerance:
             wake.counters["wake_segment_evaluations"] += march.segment_evaluations
-            return problem, x, inflow_map, circulation
-    raise NumericalFailure(f"trim on the time-marching wake did not settle: controls still move {change:.2e} rad")
+            wake.last |= {"averaged": n, "control_change": change}
+            return (problem, x, *maps[-1]) if n == 1 else mean_trim(model, maps[-n:], x, n_harmonics)
+    raise NumericalFailure(
+        f"trim on the time-marching wake did not settle in {MAX_REVOLUTIONS} revolutions: controls still move {change:.2e} rad "
+        f"(allowed {control_tolerance:g})"
+    )
+
+
+def averaged_revolutions(
+    model: Model, regime: str, maps: list[tuple[np.ndarray, np.ndarray]], change: float, control_tolerance: float
+) -> int:
+    """How many of the last revolutions of a marching wake a trim may rest on: none yet, the last, or a mean of several.
+
+    Of a wake in axial flow a small change of the controls is not enough for the last alone: it leaves its periodic solution
+    slowly. Its later half is taken from as many revolutions on as the stand marches.
+    """
+    revolution = len(maps) - 1
+    if regime == "forward":
+        return int(revolution > 3 and change < 0.1 * control_tolerance)
+    moved = np.sqrt(np.mean((maps[-1][0] - maps[-2][0]) ** 2 @ model.area_weights))
+    if revolution > 3 and change < 0.01 * control_tolerance and moved < PERIODIC * abs(model.disk_mean(maps[-1][0])):
+        return 1
+    return 2 * (revolution // 4) if revolution >= REVOLUTIONS[regime][0] else 0
+
+
+def mean_trim(
+    model: Model, maps: list[tuple[np.ndarray, np.ndarray]], x: np.ndarray, n_harmonics: int
+) -> tuple[_core.TrimProblem, np.ndarray, np.ndarray, np.ndarray]:
+    """Trim on the mean of inflow and circulation maps of several revolutions: problem, unknowns, both means."""
+    inflow_map, circulation = (np.mean(each, axis=0) for each in zip(*maps, strict=True))
+    problem = trim_problem(model, inflow_map, n_harmonics)
+    return problem, solve(model, problem, x), inflow_map, circulation

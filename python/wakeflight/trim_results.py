@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .inflow import DynamicInflow
+from .model import flight_regime
+from .regime import REGIMES
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -154,7 +156,7 @@ def table(start: Trim) -> str:
             f"{condition.speed / 0.514444:.1f} kt, flight path {deg(condition.flight_path):.2f} deg, "
             f"{condition.altitude / 0.3048:.0f} ft, {condition.gross_mass / 0.45359237:.0f} lb",
         ),
-        ("inflow model", start.inflow.name),
+        ("inflow model", start.inflow.name + _wake_length(start)),
         *[
             (f"{name} stick", f"{stick[name]:7.3f} in of {full:.2f}")
             for name, full in zip(("lateral", "longitudinal", "collective", "pedal"), travel, strict=True)
@@ -195,5 +197,21 @@ def table(start: Trim) -> str:
                 f"{last['first_turn_change']:.1e} R, pitch controls by {last['control_change']:.1e} rad",
             )
         )
+        if last.get("averaged", 1) > 1:
+            rows.append(
+                (
+                    "marching wake",
+                    f"not periodic: mean of its last {last['averaged']} revolutions, pitch controls uncertain by "
+                    f"{last['control_change']:.1e} rad",
+                )
+            )
     width = max(len(name) for name, _ in rows)
     return "\n".join(f"{name:<{width}}  {value.strip()}" for name, value in rows)
+
+
+def _wake_length(start: Trim) -> str:
+    """Regime and length of a free wake, to follow its name."""
+    if isinstance(start.inflow, DynamicInflow):
+        return ""
+    regime = flight_regime(start.aircraft, start.condition)
+    return f", {start.inflow.turns:g} turns free, {start.inflow.far_wake_turns} repeated ({REGIMES[regime]})"

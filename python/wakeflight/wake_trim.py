@@ -22,6 +22,8 @@ LEAST_SHARE = 0.05
 """Least share of a change of inflow that is taken."""
 FIRST_TURN_TOLERANCE = 1e-3
 """Change of the first turn's geometry over R in a sweep below which it counts as settled."""
+PERIODIC = 2e-4
+"""Change of inflow over its mean per revolution below which a marching wake in axial flow counts as periodic."""
 
 
 class WakeInTrim:

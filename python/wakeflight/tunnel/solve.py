@@ -18,7 +18,7 @@ from ..exchange import MarchingExchange
 from ..inflow import trim_model
 from ..progress import Progress, Silent
 from ..regime import REVOLUTIONS
-from ..wake_trim import WakeInTrim
+from ..wake_trim import PERIODIC, WakeInTrim
 from .model import StandModel
 
 EQUATION_TOLERANCE = 1e-6
@@ -28,8 +28,6 @@ CHANGE_TOLERANCE = 1e-3
 MAX_OUTER = 15
 START = {"sweeps": 1, "max_loops": 4}
 """Relaxation that starts a marching full-span wake in axial flow: free sheets do not settle there, time means do."""
-SETTLED = 2e-4
-"""Change of inflow over its mean per revolution below which a marching wake counts as periodic."""
 
 
 @dataclass
@@ -265,7 +263,7 @@ def on_marching(
         change = largest_change(model, problem, before, x)
         progress.advance(1, f"inflow change {relative:.1e} of its mean, blades {change:.1e} rad")
         run.history.append({"inflow_change_per_revolution": relative, "change": change})
-        if revolution >= 3 and relative < SETTLED and change < 1e-5:
+        if revolution >= 3 and relative < PERIODIC and change < 1e-5:
             run.settled, run.averaged = True, min(run.averaged, 2)
             break
     if not run.settled:
