@@ -19,7 +19,9 @@ import numpy as np
 
 import wakeflight as wf
 from wakeflight.model import Model
-from wakeflight.trim import Trim, dynamic_map, first_guess, solve, trim_problem
+from wakeflight.trim import Trim
+from wakeflight.trim_equations import dynamic_map
+from wakeflight.trim_solve import solve_condition, solve_on_map
 from wakeflight.trim_results import FIELDS, first_harmonics, instants
 from wakeflight.wake_trim import WakeInTrim
 
@@ -118,19 +120,16 @@ def tip_vortex(wake: wf._core.RelaxationWake, trailers: int) -> np.ndarray:
 def limited_trim(aircraft: wf.Aircraft, condition: wf.FlightCondition, inflow: wf.RelaxationWake) -> Trim:
     """Three turns of trim and wake whether or not the wake settles: in hover that of a full span does not in affordable time."""
     simple = Model.build(aircraft, condition, wf.DynamicInflow(n_stations=inflow.n_stations))
-    problem = trim_problem(simple, None)
-    x = solve(simple, problem, first_guess(simple, problem))
+    problem, x = solve_condition(simple)
     model = Model.build(aircraft, condition, inflow)
     inflow_map, _ = dynamic_map(simple, problem, x, model.steps_per_revolution)
     x, wake, history = np.delete(x, slice(7, 10)), WakeInTrim(model, inflow_map), []
     for _ in range(PASSES):
-        problem = trim_problem(model, inflow_map)
-        x = solve(model, problem, x)
+        problem, x = solve_on_map(model, inflow_map, x)
         wake.converge(problem, x)
         inflow_map = wake.inflow_map
         history.append(dict(wake.last))
-    problem = trim_problem(model, inflow_map)
-    x = solve(model, problem, x)
+    problem, x = solve_on_map(model, inflow_map, x)
     return Trim(model, problem, x, inflow_map, wake.circulation, wake, 0.0, history)
 
 

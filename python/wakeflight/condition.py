@@ -15,7 +15,13 @@ if TYPE_CHECKING:
     from .aircraft import Aircraft
 
 HEADING_FREE_SPEED = convert(60.0, "kt", "m/s")
-"""Speed [m/s] from which trim asks for zero bank, heading free; below, zero sideslip, bank free."""
+"""Speed [m/s] from which trim asks for zero bank, heading free."""
+ALIGNED_SPEED = convert(50.0, "kt", "m/s")
+"""Speed [m/s] up to which trim asks for zero sideslip, bank free; between the two the one passes into the other."""
+SLOWEST_FREE = 1.0
+"""Least horizontal speed [m/s] at which the heading can be left free."""
+COORDINATED_TURN = 0.05
+"""Lateral acceleration of a turn over that of gravity from which trim asks for zero sideslip at any speed."""
 
 # SI unit, smallest, largest, unit shown
 _RANGES = {
@@ -33,7 +39,12 @@ def described(values: dict[str, Any]) -> str:
     """A condition as results keep it (SI, radians), with the units it is given in: `speed 80 kt, flight path -6 deg`."""
     parts = []
     for name, value in values.items():
-        if name in _RANGES:
+        if name == "bank_share":
+            # the heading says it but for the conditions between
+            if value in (0.0, 1.0):
+                continue
+            value = f"{value:.2f}"
+        elif name in _RANGES:
             value = shown(value, _RANGES[name][3])
         elif name == "gross_mass":
             value = shown(value, "kg")
@@ -49,7 +60,10 @@ class FlightCondition:
     gross_mass [kg]: of the weight given as force (lbf, N) or mass (lb, kg), weight = mass x 9.80665 m/s2.
     sideslip [rad]: wind from the right +, 180 deg is rearward flight. turn_rate [rad/s]: to the right +.
     bank [rad]: to the right +. heading: `free` (bank as given or zero, sideslip found by trim) or `aligned`
-    (sideslip as given or zero, bank found by trim); not given, `free` at 60 kt and above in straight flight.
+    (sideslip as given or zero, bank found by trim; in slow, vertical and steep flight the heading against the track is minus
+    that sideslip). Not given, `free` at 60 kt and above in straight flight along paths within 30 deg of level.
+    bank_share: share of the bank in the lateral convention, 1 free and 0 aligned; not given, it passes from one to the other
+    without a jump: between 50 and 60 kt, with paths of 30 to 60 deg, and with turns up to 0.05 g.
     """
 
     speed: float | None
@@ -60,6 +74,7 @@ class FlightCondition:
     turn_rate: float
     bank: float | None
     heading: str | None
+    bank_share: float | None
 
     def __init__(
         self,
@@ -90,6 +105,8 @@ class FlightCondition:
             raise InputError.of("weight", weight, allowed)
         object.__setattr__(self, "gross_mass", mass)
         object.__setattr__(self, "heading", _heading(heading, self.sideslip, self.bank))
+        named = {"free": 1.0, "aligned": 0.0}
+        object.__setattr__(self, "bank_share", named.get(self.heading))
 
     @property
     def weight(self) -> float | None:
@@ -113,12 +130,26 @@ class FlightCondition:
             if values[name] is None:
                 values[name] = aircraft.default(name, named)
         if values["heading"] is None:
-            fast_and_straight = values["speed"] >= HEADING_FREE_SPEED * (1.0 - 1e-9) and values["turn_rate"] == 0.0
-            values["heading"] = "free" if fast_and_straight else "aligned"
+            share = _bank_share(values["speed"], values["flight_path"], values["turn_rate"])
+            values["heading"], values["bank_share"] = "free" if share == 1.0 else "aligned", share
+        elif values["heading"] == "free" and values["speed"] * math.cos(values["flight_path"]) < SLOWEST_FREE:
+            allowed = (
+                f"at a horizontal speed below {shown(SLOWEST_FREE, 'm/s')} no heading changes the side force; "
+                "heading = aligned lets trim find the bank"
+            )
+            raise InputError.of("heading", "free" if self.bank is None else f"free (bank {shown(self.bank, 'deg')})", allowed)
         if values["heading"] == "free":
             values["bank"] = 0.0 if values["bank"] is None else values["bank"]
         else:
             values["sideslip"] = 0.0 if values["sideslip"] is None else values["sideslip"]
+        return self._with(values)
+
+    def changed(self, **values: float) -> FlightCondition:
+        """This condition with some numbers changed, SI and radians, unchecked: a step of a continuation."""
+        return self._with({**{field.name: getattr(self, field.name) for field in fields(self)}, **values})
+
+    @staticmethod
+    def _with(values: dict[str, Any]) -> FlightCondition:
         whole = object.__new__(FlightCondition)
         for name, value in values.items():
             object.__setattr__(whole, name, value)
@@ -149,6 +180,20 @@ def _in_range(name: str, value: Any) -> float:
     if not low - slack <= number <= high + slack:
         raise InputError.of(name, value, f"must lie between {shown(low, unit)} and {shown(high, unit)}")
     return number
+
+
+def _bank_share(speed: float, flight_path: float, turn_rate: float) -> float:
+    """Share of zero bank in the lateral convention where none is named: of fast, flat and straight flight."""
+    fast = (speed - ALIGNED_SPEED) / (HEADING_FREE_SPEED * (1.0 - 1e-9) - ALIGNED_SPEED)
+    flat = 2.0 * math.cos(flight_path) ** 2 - 0.5
+    turning = abs(turn_rate) * speed * math.cos(flight_path) / (COORDINATED_TURN * STANDARD_GRAVITY)
+    return smooth_step(fast) * smooth_step(flat + 1e-9) * (1.0 - smooth_step(turning))
+
+
+def smooth_step(x: float) -> float:
+    """0 up to 0, 1 from 1 on, with continuous slope."""
+    x = min(max(x, 0.0), 1.0)
+    return x * x * (3.0 - 2.0 * x)
 
 
 def _heading(heading: str | None, sideslip: float | None, bank: float | None) -> str | None:

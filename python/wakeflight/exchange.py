@@ -45,7 +45,7 @@ class MarchingExchange:
         self.update_steps = None if interval is None else round(interval / (2 * np.pi) * self.n)
         self._held_map: np.ndarray | None = None
         self.monitors = {"max_displacement": 0.0, "odd_even": 0.0, "vortex_blade_distance": np.nan}
-        self.circulation_not_converged = 0
+        self.circulation_followed = 0
         self._frozen: tuple | None = None
 
     def copy(self) -> MarchingExchange:
@@ -84,7 +84,7 @@ class MarchingExchange:
         """
         self.step_index += 1
         rows = self.rows(self.step_index)
-        displacement, odd_even, distance, failed = self.core.advance(
+        displacement, odd_even, distance, followed = self.core.advance(
             self.model.core, y, stick, stick_rate, rows[0], motion
         )
         self.monitors = {
@@ -92,7 +92,7 @@ class MarchingExchange:
             "odd_even": odd_even,
             "vortex_blade_distance": distance,
         }
-        self.circulation_not_converged += failed
+        self.circulation_followed += followed
         self.lambda_far, self.circulation, self.inflow = (
             self.core.lambda_far(),
             self.core.circulation(),

@@ -14,7 +14,6 @@ from . import _core
 from .aircraft import Aircraft, Rotor, load_rotor
 from .errors import InputError
 
-
 KINDS = ("flap", "lag", "torsion")
 CLEAR = 0.7
 """Share of the kinetic energy from which a mode is called by one kind alone."""

@@ -236,7 +236,9 @@ class Recorder:
             counters["relaxation_updates"] = wake.updates
             counters["relaxation_iterations"] = wake.trimmed.counters["relaxation_iterations"]
         else:
-            counters["circulation_not_converged"] = wake.circulation_not_converged
+            # a circulation that is no solution stops the flight: none is ever kept
+            counters["circulation_not_converged"] = 0
+            counters["circulation_followed"] = wake.circulation_followed
         return counters
 
     def _describe(self) -> dict[str, Any]:

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from . import _core
-from .errors import InputError
+from .errors import InputError, NumericalFailure
 from .exchange import MarchingExchange
 from .model import CompiledRotor
 
@@ -40,11 +40,10 @@ class WakeInTrim:
         self.relaxation: _core.RelaxationWake | None = None
         self.converged = False
         self.last: dict[str, float] = {}
-        self.not_converged = 0
         self.counters = {
             "relaxation_iterations": 0,
             "wake_segment_evaluations": 0,
-            "circulation_not_converged": 0,
+            "circulation_followed": 0,
         }
 
     def converge(self, problem: _core.TrimProblem, x: np.ndarray) -> np.ndarray:
@@ -97,7 +96,6 @@ class WakeInTrim:
                 "geometry_change": float(norms[-1, 0]),
                 "first_turn_change": float(norms[-1, 1]),
                 "iterations": iteration + 1,
-                "circulation_not_converged": self.not_converged,
             }
             if (
                 rms < options.inflow_tolerance
@@ -127,11 +125,13 @@ class WakeInTrim:
             ]
             self.circulation, self.inflow_map = np.array(rows), self.lambda_far
             return
-        self.circulation, self.inflow_map, _, failed = self.model.core.solve_circulation(
-            self.model.wake_options, y, stick, np.zeros(len(stick)), self.psi, q, q_dot, self.lambda_far, start
-        )
-        self.counters["circulation_not_converged"] += failed
-        self.not_converged = failed
+        try:
+            self.circulation, self.inflow_map, _, followed = self.model.core.solve_circulation(
+                self.model.wake_options, y, stick, np.zeros(len(stick)), self.psi, q, q_dot, self.lambda_far, start
+            )
+        except ArithmeticError as reason:
+            raise NumericalFailure(str(reason)) from reason
+        self.counters["circulation_followed"] += followed
 
     def _thrust(self) -> float:
         """Thrust but for constant factors: integral of circulation times radius."""

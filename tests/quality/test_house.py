@@ -28,7 +28,7 @@ RUST_ORDER = (
 # each module may import itself and the rows before its own; a new module needs its place here
 PYTHON_ORDER = (
     {"_core", "errors", "schema", "regime", "disk"},
-    {"units", "references", "vortex", "progress"},
+    {"units", "references", "vortex", "progress", "limits"},
     {"condition", "inflow", "results", "maneuvers", "wing"},
     {"aircraft"},
     {"model", "modes"},

@@ -56,34 +56,31 @@ pub struct PyTrimProblem(TrimProblem);
 
 #[pymethods]
 impl PyTrimProblem {
-    /// `convention` is "bank", "sideslip" or "heading" with `angle` [rad]; inflow (n_azimuths, n_stations) or None (dynamic).
+    /// Lateral convention: `bank` and `sideslip` [rad], and the share of the bank in its equation; inflow
+    /// (n_azimuths, n_stations) or None (dynamic).
     #[new]
     #[allow(clippy::too_many_arguments, reason = "the fields of the problem")]
-    #[pyo3(signature = (speed, flight_path, turn_rate, convention, angle, n_harmonics, n_azimuths, inflow, mean_inflow))]
+    #[pyo3(signature = (speed, flight_path, turn_rate, bank, sideslip, bank_share, n_harmonics, n_azimuths, inflow, mean_inflow))]
     fn new(
         speed: f64,
         flight_path: f64,
         turn_rate: f64,
-        convention: &str,
-        angle: f64,
+        bank: f64,
+        sideslip: f64,
+        bank_share: f64,
         n_harmonics: usize,
         n_azimuths: usize,
         inflow: Option<PyReadonlyArray2<f64>>,
         mean_inflow: f64,
-    ) -> PyResult<Self> {
-        let convention = match convention {
-            "bank" => Convention::Bank(angle),
-            "sideslip" => Convention::Sideslip(angle),
-            "heading" => Convention::Heading(angle),
-            other => return Err(invalid(format!("convention '{other}': bank, sideslip or heading"))),
-        };
+    ) -> Self {
+        let convention = Convention { bank, sideslip, bank_share };
         let inflow = match inflow {
             None => TrimInflow::Dynamic,
             Some(map) => {
                 TrimInflow::Map { inflow: map.as_array().iter().copied().collect(), mean: mean_inflow }
             }
         };
-        Ok(Self(TrimProblem { speed, flight_path, turn_rate, convention, n_harmonics, n_azimuths, inflow }))
+        Self(TrimProblem { speed, flight_path, turn_rate, convention, n_harmonics, n_azimuths, inflow })
     }
 }
 
@@ -210,7 +207,7 @@ impl PyAircraft {
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let x = x.as_slice()?;
         let mut f = vec![0.0; x.len()];
-        py.detach(|| self.inner.trim_residual(&problem.0, x, &mut f));
+        py.detach(|| self.inner.trim_residual_of_four(&problem.0, x, &mut f));
         Ok(f.into_pyarray(py))
     }
 
@@ -300,7 +297,7 @@ impl PyAircraft {
     /// Circulation and near wake solved together for a set of blade instants.
     ///
     /// psi (m,), q and q_dot (m, n_modes), lambda_far and start (m, n_stations); hub motion in hub axes; sticks [m], [m/s].
-    /// Returns circulation, total inflow (m, n_stations), largest residual [m2/s], number not converged.
+    /// Returns circulation, total inflow (m, n_stations), largest residual [m2/s], number that Newton did not find from `start`.
     #[allow(clippy::too_many_arguments, clippy::type_complexity, reason = "one call per exchange")]
     fn solve_circulation<'py>(
         &self,
@@ -344,7 +341,7 @@ impl PyAircraft {
             .map_err(|e| pyo3::exceptions::PyArithmeticError::new_err(e.to_string()))?;
         let shape = |v| Array::from_shape_vec((instants.len(), n), v).map_err(invalid);
         let (gamma, inflow) = (shape(all.gamma)?, shape(all.inflow)?);
-        Ok((gamma.into_pyarray(py), inflow.into_pyarray(py), all.residual, all.not_converged))
+        Ok((gamma.into_pyarray(py), inflow.into_pyarray(py), all.residual, all.followed))
     }
 
     /// Circulation [m2/s] of one blade's sections and its slope by inflow, for inflow (n_stations,).

@@ -344,7 +344,7 @@ impl PyMarchingExchange {
         }
         let inner = &mut self.inner;
         let r = py.detach(|| inner.advance(rotor, air, &hub, &blades)).map_err(py_error)?;
-        Ok((r.max_displacement, r.odd_even, r.miss_distance, r.not_converged))
+        Ok((r.max_displacement, r.odd_even, r.miss_distance, r.followed))
     }
 
     /// Total inflow held over the next step (n_blades, n_stations), of thin sections at both lines of the chord.

@@ -270,7 +270,7 @@ impl PyStand {
         let (n, width) = (self.inner.rotor.blade.stations.len(), self.inner.rotor.inflow_width());
         let shape = |m, v| Array::from_shape_vec((instants.len(), m), v).map_err(invalid);
         let (gamma, inflow) = (shape(n, all.gamma)?, shape(width, all.inflow)?);
-        Ok((gamma.into_pyarray(py), inflow.into_pyarray(py), all.residual, all.not_converged))
+        Ok((gamma.into_pyarray(py), inflow.into_pyarray(py), all.residual, all.followed))
     }
 
     /// Circulation [m2/s] of one blade's sections and its slope by inflow, for inflow (n_stations,).

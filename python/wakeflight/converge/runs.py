@@ -276,7 +276,7 @@ class FlightRun:
                 "jacobians",
                 "segment_evaluations",
                 "relaxation_iterations",
-                "circulation_not_converged",
+                "circulation_followed",
             )
             if name in data.attrs
         }

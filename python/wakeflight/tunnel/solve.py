@@ -178,10 +178,6 @@ def on_relaxation(model: StandModel, start: Solution, progress: Progress | Silen
         problem = model.problem(inflow_map)
         x = solve_equations(model, problem, x)
     notes = []
-    if wake.last.get("circulation_not_converged"):
-        notes.append(
-            f"circulation and near wake do not agree at {wake.last['circulation_not_converged']} of {wake.n} azimuths"
-        )
     if not settled:
         last = history[-1]
         notes.append(

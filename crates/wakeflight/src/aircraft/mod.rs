@@ -7,3 +7,4 @@ pub mod rates;
 pub mod residual;
 pub mod state;
 pub mod trim;
+pub mod trim_jacobian;

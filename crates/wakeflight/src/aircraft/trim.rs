@@ -1,30 +1,36 @@
 //! Trim as algebraic equations: revolution-averaged balances, flight path, periodic blade motion by Galerkin projection.
 //!
 //! Unknowns: four sticks, roll, pitch, heading against the track, dynamic inflow, tail-rotor inflow, and per mode the
-//! mean and the first harmonics of its periodic motion. Equations: three force and three moment balances, the bank or
-//! sideslip convention, the inflow equations with the loads averaged, and every harmonic of the blade equations.
+//! mean and the first harmonics of its periodic motion. Equations: three force and three moment balances, the lateral
+//! convention, the inflow equations with the loads averaged, and every harmonic of the blade equations.
 
 use super::model::{Aircraft, HeldInflow, Inputs};
 use super::residual::RotorLoads;
 use super::state::Layout;
 use crate::blade::kinematics::{ModalMotion, PitchMotion};
-use crate::blade::loads::{BladeInflow, BladeLoads};
-use crate::numerics::frames::{Vec3, quaternion, rot_ib};
-use crate::numerics::jacobian::dense_jacobian;
+use crate::blade::loads::{BladeInflow, BladeLoads, HubMotion};
+use crate::numerics::frames::{Body, Vec3, quaternion, rot_ib};
 use crate::numerics::scalar::Real;
 use crate::rotor::periodic::Harmonics;
 use crate::rotor::swashplate::PitchSeries;
 
-/// What fixes the lateral degree of freedom.
+/// What fixes the lateral degree of freedom: bank and sideslip as given, in shares of one equation.
+///
+/// Sideslip is the angle of the wind in the plane of the nose: atan2(v, u) where the flight is fast and flat, minus the heading
+/// against the track where it is slow or steep (u and v then tell of climb and attitude, not of a direction), blended between
+/// by the share of the horizontal speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Convention {
-    /// Bank angle given [rad], heading against the track free.
-    Bank(f64),
-    /// Sideslip atan2(v, u) given [rad], bank free.
-    Sideslip(f64),
-    /// Heading against the track given [rad], bank free (hover, where no sideslip exists).
-    Heading(f64),
+pub struct Convention {
+    /// Bank angle [rad].
+    pub bank: f64,
+    /// Sideslip, wind from the right positive [rad].
+    pub sideslip: f64,
+    /// Share of the bank in the equation, the rest is the sideslip's: 1 with the heading free, 0 with the nose on the wind.
+    pub bank_share: f64,
 }
+
+/// Horizontal speed [m/s] below which a heading tells more than a sideslip.
+const SLOW: f64 = 3.0;
 
 /// Inflow in trim.
 #[derive(Clone, Debug)]
@@ -49,7 +55,7 @@ pub struct TrimProblem {
     pub flight_path: f64,
     /// Rate of turn, right positive [rad/s].
     pub turn_rate: f64,
-    /// Lateral convention.
+    /// What fixes the lateral degree of freedom.
     pub convention: Convention,
     /// Harmonics of the blade motion.
     pub n_harmonics: usize,
@@ -57,6 +63,31 @@ pub struct TrimProblem {
     pub n_azimuths: usize,
     /// Inflow.
     pub inflow: TrimInflow,
+}
+
+/// What is missing to the lateral convention [rad], for the velocity in body axes [m/s], roll and heading against the track.
+fn convention_residual<S: Real>(problem: &TrimProblem, velocity: Vec3<S, Body>, roll: S, yaw: S) -> S {
+    let Convention { bank, sideslip, bank_share } = problem.convention;
+    let (climb, forward) = problem.flight_path.sin_cos();
+    let (rise, along) = (problem.speed * climb, problem.speed * forward);
+    let flat = along * along / (along * along + rise * rise + SLOW * SLOW);
+    let share = smooth_step(2.0 * flat - 0.5);
+    // direction of flight seen from the nose: by the heading, and by the wind
+    let (sin, cos) = yaw.sin_cos();
+    let (mut ahead, mut right) = (cos, -sin);
+    if share > 0.0 {
+        ahead += (velocity.x / along - ahead) * share;
+        right += (velocity.y / along - right) * share;
+    }
+    let (s, c) = sideslip.sin_cos();
+    let slip = (right * c - ahead * s).atan2(ahead * c + right * s);
+    (roll - bank) * bank_share + slip * (1.0 - bank_share)
+}
+
+/// 0 up to 0, 1 from 1 on, with continuous slope.
+fn smooth_step(x: f64) -> f64 {
+    let x = x.clamp(0.0, 1.0);
+    x * x * (3.0 - 2.0 * x)
 }
 
 /// Where each unknown lives in x; the rows of the residual are in the same order.
@@ -155,12 +186,15 @@ impl Aircraft {
         self.airframe.trim_incidence(problem.speed, self.air.density, collective, pitch_rate)
     }
 
-    /// Residual of the trim equations: m/s2, rad/s2, convention, inflow equilibrium, blade harmonics as equivalent angles [rad].
-    pub fn trim_residual<S: Real>(&self, problem: &TrimProblem, x: &[S], f: &mut [S]) {
-        let layout = self.trim_layout(problem);
+    /// Body state with the inflow states of the unknowns in it, and the motion of the hub.
+    pub(super) fn trim_hub_state<S: Real>(
+        &self,
+        problem: &TrimProblem,
+        layout: &TrimLayout,
+        x: &[S],
+    ) -> (Vec<S>, HubMotion<S>) {
         let mut y = self.trim_body_state(problem, x);
         let y_dot = vec![S::zero(); y.len()];
-        let stick = [x[0], x[1], x[2], x[3]];
         if layout.dynamic_inflow && self.layout.dynamic_inflow {
             let i = self.layout.inflow().start;
             y[i..i + 3].copy_from_slice(&x[layout.inflow()..layout.inflow() + 3]);
@@ -169,22 +203,41 @@ impl Aircraft {
             y[self.layout.tail_inflow().start] = x[layout.tail_inflow()];
         }
         let hub = self.hub_motion(&y, &y_dot);
-        let pitch = self.rotor.rigging.pitch(stick);
+        (y, hub)
+    }
 
+    /// Residual of the trim equations: m/s2, rad/s2, convention [rad], inflow equilibrium, blade harmonics as equivalent
+    /// angles [rad].
+    pub fn trim_residual<S: Real>(&self, problem: &TrimProblem, x: &[S], f: &mut [S]) {
+        let layout = self.trim_layout(problem);
+        let (y, hub) = self.trim_hub_state(problem, &layout, x);
+        let pitch = self.rotor.rigging.pitch([x[0], x[1], x[2], x[3]]);
         let given =
             |l: usize, psi: f64| (self.cyclic_pitch(&pitch, psi), self.trim_blade_inflow(problem, &y, l));
         let mean =
             self.rotor.revolution(self.air, &hub, &layout.harmonics(), x, problem.n_azimuths, given, f);
-        self.trim_balances(problem, &layout, x, &mut y, &mean, f);
+        self.trim_balances(problem, &layout, x, &y, &mean, f);
+    }
+
+    /// The same, four azimuths at once; the same bits.
+    pub fn trim_residual_of_four(&self, problem: &TrimProblem, x: &[f64], f: &mut [f64]) {
+        let layout = self.trim_layout(problem);
+        let (y, hub) = self.trim_hub_state(problem, &layout, x);
+        let pitch = self.rotor.rigging.pitch([x[0], x[1], x[2], x[3]]);
+        let given =
+            |l: usize, psi: f64| (self.cyclic_pitch(&pitch, psi), self.trim_blade_inflow(problem, &y, l));
+        let harmonics = layout.harmonics();
+        let mean = self.rotor.revolution_of_four(self.air, &hub, &harmonics, x, problem.n_azimuths, given, f);
+        self.trim_balances(problem, &layout, x, &y, &mean, f);
     }
 
     /// Averaged balances, lateral convention, inflow equilibrium.
-    fn trim_balances<S: Real>(
+    pub(super) fn trim_balances<S: Real>(
         &self,
         problem: &TrimProblem,
         layout: &TrimLayout,
         x: &[S],
-        y: &mut [S],
+        y: &[S],
         mean: &BladeLoads<S>,
         f: &mut [S],
     ) {
@@ -215,15 +268,8 @@ impl Aircraft {
             f[i] = force[i] / self.airframe.gross_mass;
             f[3 + i] = moment[i] / self.airframe.reference_inertia[i];
         }
-        let a = TrimLayout::ATTITUDE;
-        f[6] = match problem.convention {
-            Convention::Bank(bank) => x[a] - bank,
-            Convention::Heading(heading) => x[a + 2] - heading,
-            Convention::Sideslip(sideslip) => {
-                let (s, c) = sideslip.sin_cos();
-                (velocity.y * c - velocity.x * s) / problem.speed.max(1.0)
-            }
-        };
+        let (roll, yaw) = (x[TrimLayout::ATTITUDE], x[TrimLayout::ATTITUDE + 2]);
+        f[6] = convention_residual(problem, velocity, roll, yaw);
         if layout.dynamic_inflow {
             let i = layout.inflow();
             let rate = self.inflow_rate(velocity, rates, &rotor, [x[i], x[i + 1], x[i + 2]]);
@@ -260,7 +306,7 @@ impl Aircraft {
     }
 
     /// Blade pitch with exact rates for steady pitch controls (theta_1c, theta_1s, theta_0, theta_tr).
-    fn cyclic_pitch<S: Real>(&self, pitch: &[S; 4], psi: f64) -> PitchMotion<S> {
+    pub(super) fn cyclic_pitch<S: Real>(&self, pitch: &[S; 4], psi: f64) -> PitchMotion<S> {
         let series = PitchSeries { theta_0: pitch[2], theta_1c: pitch[0], theta_1s: pitch[1], higher: &[] };
         series.at(psi + self.rotor.rigging.phase, self.rotor.omega).into()
     }
@@ -281,11 +327,6 @@ impl Aircraft {
                 BladeInflow::Stations(&inflow[l * n..(l + 1) * n])
             }
         }
-    }
-
-    /// Exact Jacobian of the trim equations, row-major.
-    pub fn trim_jacobian(&self, problem: &TrimProblem, x: &[f64], out: &mut [f64]) {
-        dense_jacobian(x, |x, f| self.trim_residual(problem, x, f), out);
     }
 
     /// State and its rate at time `t` of the trimmed revolution; body accelerations and attitude rates are left at zero.

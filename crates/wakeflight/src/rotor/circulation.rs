@@ -9,7 +9,7 @@ use crate::blade::loads::{BladeInflow, HubMotion};
 use crate::blade::thin_section::ThinSection;
 use crate::numerics::scalar::{Dual, Real};
 use crate::wake::{
-    BladeState, CirculationSolution, HubMotion as WakeHub, WakeError, WakeOptions, near_wake_matrix,
+    BladeState, CirculationSolution, HubMotion as WakeHub, Route, WakeError, WakeOptions, near_wake_matrix,
     solve_circulation, weissinger_matrix,
 };
 
@@ -23,8 +23,8 @@ pub struct Circulations {
     pub inflow: Vec<f64>,
     /// Largest residual [m2/s].
     pub residual: f64,
-    /// Instants that did not converge.
-    pub not_converged: usize,
+    /// Instants whose solution Newton did not find from the start given.
+    pub followed: usize,
 }
 
 /// Inflow that a blade's own near wake (and bound line) adds per unit of circulation, row-major (n_stations, n_stations)
@@ -47,6 +47,9 @@ pub struct BladeInstant {
     /// Pitch from the swashplate.
     pub control: PitchMotion<f64>,
 }
+
+/// Largest difference between the circulation of a section and that of its element, over omega R^2.
+const CIRCULATION_TOLERANCE: f64 = 1e-8;
 
 impl Rotor {
     /// Circulation [m2/s] at every station for inflow `lambda`, and its derivative by the inflow there.
@@ -150,6 +153,29 @@ impl Rotor {
         self.blade.stations.len() * if self.thin.is_some() { 2 } else { 1 }
     }
 
+    /// `solution` of blade or instant `i`, at azimuth `psi` [rad], where it is one; otherwise the error that says where not.
+    pub(super) fn solved(
+        &self,
+        solution: CirculationSolution,
+        i: usize,
+        psi: f64,
+    ) -> Result<CirculationSolution, WakeError> {
+        if solution.converged() {
+            return Ok(solution);
+        }
+        let (radius, station) = (self.blade.radius, solution.worst_station);
+        Err(WakeError::Circulation {
+            blade: i,
+            azimuth: psi.to_degrees().rem_euclid(360.0),
+            station,
+            radius: self.blade.stations[station].shapes.x / radius,
+            residual: solution.residual,
+            tolerance: CIRCULATION_TOLERANCE * self.omega * radius * radius,
+            circulation: solution.gamma[station],
+            inflow: solution.inflow[station],
+        })
+    }
+
     /// Circulation of one blade and the inflow it holds ([`inflow_width`](Self::inflow_width)) for the held far inflow
     /// (n_stations) and its near wake.
     pub fn blade_circulation(
@@ -166,7 +192,7 @@ impl Rotor {
         let steepest = if self.thin.is_some() { -8.0 } else { -3.0 };
         let floor: Vec<f64> =
             self.blade.stations.iter().map(|s| steepest * s.geometry.chord * self.tip_speed()).collect();
-        let tolerance = 1e-8 * self.omega * radius * radius;
+        let tolerance = CIRCULATION_TOLERANCE * self.omega * radius * radius;
         if let (Some(law), Some(matrix)) = (self.thin, &near_wake.three_quarter) {
             let mut solution = solve_circulation(
                 lambda_far,
@@ -218,8 +244,9 @@ impl Rotor {
             let row = i * n..(i + 1) * n;
             let solution =
                 self.blade_circulation(air, hub, blade, &lambda_far[row.clone()], &near, &start[row])?;
+            let solution = self.solved(solution, i, blade.psi)?;
             all.residual = all.residual.max(solution.residual);
-            all.not_converged += usize::from(!solution.converged);
+            all.followed += usize::from(solution.found_by != Some(Route::Newton));
             all.gamma.extend(solution.gamma);
             all.inflow.extend(solution.inflow);
         }

@@ -9,7 +9,9 @@ use crate::blade::aerodynamics::Air;
 use crate::blade::loads::HubMotion;
 use crate::vortex::threads::share;
 use crate::wake::miss_distance::miss_distance_in_cores;
-use crate::wake::{BladeState, CirculationSolution, HubMotion as WakeHub, TimeMarchingWake, WakeError};
+use crate::wake::{
+    BladeState, CirculationSolution, HubMotion as WakeHub, Route, TimeMarchingWake, WakeError,
+};
 
 /// What may be done beyond the plain exchange.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -30,8 +32,8 @@ pub struct ExchangeReport {
     pub odd_even: f64,
     /// Smallest distance between blade and tip vortex, in core radii.
     pub miss_distance: f64,
-    /// Circulation problems that did not converge.
-    pub not_converged: usize,
+    /// Circulations that Newton did not find from the last ones: see [`Route`].
+    pub followed: usize,
 }
 
 /// Rotor, air and motion of the hub at the exchange.
@@ -44,12 +46,14 @@ struct Place<'a> {
 impl Place<'_> {
     fn solved(
         &self,
+        b: usize,
         blade: &BladeInstant,
         far: &[f64],
         near: &NearWake,
         start: &[f64],
     ) -> Result<CirculationSolution, WakeError> {
-        self.rotor.blade_circulation(self.air, self.hub, blade, far, near, start)
+        let solution = self.rotor.blade_circulation(self.air, self.hub, blade, far, near, start)?;
+        self.rotor.solved(solution, b, blade.psi)
     }
 }
 
@@ -106,14 +110,14 @@ impl MarchingExchange {
         let wake_hub = WakeHub { velocity: hub.velocity.array(), rates: hub.omega.array() };
         self.place(rotor, blades, &wake_hub)?;
         let at = Place { rotor, air, hub };
-        let mut failed = self.solve(&at, true)?;
+        let mut followed = self.solve(&at, true)?;
         let step = self.wake.step(wake_hub, &self.states, &self.circulation)?;
         self.renew_far(self.options.recorrect == 0);
-        failed += self.solve(&at, false)?;
+        followed += self.solve(&at, false)?;
         for pass in 0..self.options.recorrect {
             self.wake.set_circulation(&self.circulation)?;
             self.find_far(pass + 1 == self.options.recorrect);
-            failed += self.solve(&at, false)?;
+            followed += self.solve(&at, false)?;
         }
         if self.options.extrapolate {
             self.hold_extrapolated(&at)?;
@@ -122,7 +126,7 @@ impl MarchingExchange {
             max_displacement: step.max_displacement,
             odd_even: step.odd_even,
             miss_distance: miss_distance_in_cores(self.wake.options(), self.wake.instant()),
-            not_converged: failed,
+            followed,
         })
     }
 
@@ -171,17 +175,17 @@ impl MarchingExchange {
         self.far_ahead(if ahead { 1.0 } else { 0.0 });
         let n = self.wake.options().n_stations;
         let mut outcomes: Vec<Result<bool, WakeError>> = vec![Ok(true); self.blades.len()];
-        let given = self.blades.iter().zip(&self.near_wakes).zip(self.far_held.chunks(n));
+        let given = self.blades.iter().zip(&self.near_wakes).zip(self.far_held.chunks(n)).enumerate();
         let width = at.rotor.inflow_width();
         let kept = self.circulation.chunks_mut(n).zip(self.inflow.chunks_mut(width)).zip(&mut outcomes);
-        share(given.zip(kept), |(((blade, near), far), ((circulation, inflow), outcome))| {
-            *outcome = at.solved(blade, far, near, circulation).map(|solution| {
+        share(given.zip(kept), |((b, ((blade, near), far)), ((circulation, inflow), outcome))| {
+            *outcome = at.solved(b, blade, far, near, circulation).map(|solution| {
                 circulation.copy_from_slice(&solution.gamma);
                 inflow.copy_from_slice(&solution.inflow);
-                solution.converged
+                solution.found_by == Some(Route::Newton)
             });
         });
-        outcomes.into_iter().try_fold(0, |failed, outcome| Ok(failed + usize::from(!outcome?)))
+        outcomes.into_iter().try_fold(0, |followed, outcome| Ok(followed + usize::from(!outcome?)))
     }
 
     /// Total inflow half a step ahead; circulation of the wake stays that of the present.
@@ -190,7 +194,8 @@ impl MarchingExchange {
         let (n, width) = (self.wake.options().n_stations, at.rotor.inflow_width());
         for (b, (blade, near)) in self.blades.iter().zip(&self.near_wakes).enumerate() {
             let span = b * n..(b + 1) * n;
-            let solution = at.solved(blade, &self.far_held[span.clone()], near, &self.circulation[span])?;
+            let solution =
+                at.solved(b, blade, &self.far_held[span.clone()], near, &self.circulation[span])?;
             self.inflow[b * width..(b + 1) * width].copy_from_slice(&solution.inflow);
         }
         Ok(())

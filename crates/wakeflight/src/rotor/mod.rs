@@ -6,5 +6,6 @@ pub mod four;
 pub mod hub;
 pub mod lag_damper;
 pub mod periodic;
+pub mod periodic_slopes;
 pub mod stand;
 pub mod swashplate;

@@ -5,7 +5,6 @@ use crate::blade::MAX_MODES;
 use crate::blade::aerodynamics::Air;
 use crate::blade::kinematics::{ModalMotion, PitchMotion};
 use crate::blade::loads::{BladeInflow, BladeLoads, HubMotion};
-use crate::numerics::frames::Vec3;
 use crate::numerics::scalar::Real;
 
 /// Where mean, cosines and sines of every mode live in a vector of unknowns; the equations are in the same order.
@@ -75,40 +74,81 @@ impl Rotor {
         given: impl Fn(usize, f64) -> BladeGiven<'a, S>,
         f: &mut [S],
     ) -> BladeLoads<S> {
-        let n = n_azimuths;
-        let mut mean = BladeLoads {
-            modal: [S::zero(); MAX_MODES],
-            force: Vec3::zero(),
-            moment: Vec3::zero(),
-            aero_force: Vec3::zero(),
-            aero_moment: Vec3::zero(),
-        };
-        for row in &mut f[harmonics.mode(0)..harmonics.mode(harmonics.n_modes)] {
-            *row = S::zero();
-        }
-        for l in 0..n {
-            let psi = std::f64::consts::TAU * l as f64 / n as f64;
+        let mut mean = BladeLoads::zero();
+        self.clear(harmonics, f);
+        for l in 0..n_azimuths {
+            let psi = std::f64::consts::TAU * l as f64 / n_azimuths as f64;
             let modal = harmonics.motion(x, psi, self.omega);
             let (control, inflow) = given(l, psi);
             let loads = self.blade_loads(air, hub, psi, &modal, &control, &inflow);
-            let share = self.n_blades as f64 / n as f64;
-            mean.force += loads.force.scaled(share);
-            mean.moment += loads.moment.scaled(share);
-            mean.aero_force += loads.aero_force.scaled(share);
-            mean.aero_moment += loads.aero_moment.scaled(share);
-            for i in 0..harmonics.n_modes {
-                let start = harmonics.mode(i);
-                let residual = loads.modal[i] / n as f64;
-                f[start] += residual * self.angle_per_modal_force(i, 0);
-                for k in 1..=harmonics.n_harmonics {
-                    let (s, c) = (k as f64 * psi).sin_cos();
-                    let angle = 2.0 * self.angle_per_modal_force(i, k);
-                    f[start + 2 * k - 1] += residual * (c * angle);
-                    f[start + 2 * k] += residual * (s * angle);
-                }
+            self.add_azimuth(harmonics, psi, n_azimuths, &loads, &mut mean, f);
+        }
+        mean
+    }
+
+    /// The same without derivatives, four azimuths at once; the same bits.
+    #[allow(clippy::too_many_arguments, reason = "the physical inputs of a revolution")]
+    pub fn revolution_of_four<'a>(
+        &self,
+        air: Air,
+        hub: &HubMotion<f64>,
+        harmonics: &Harmonics,
+        x: &[f64],
+        n_azimuths: usize,
+        given: impl Fn(usize, f64) -> BladeGiven<'a, f64>,
+        f: &mut [f64],
+    ) -> BladeLoads<f64> {
+        let mut mean = BladeLoads::zero();
+        self.clear(harmonics, f);
+        for first in (0..n_azimuths).step_by(4) {
+            let known: [_; 4] = std::array::from_fn(|k| {
+                // fewer than four left: the last stands in for those that are not there
+                let l = (first + k).min(n_azimuths - 1);
+                let psi = std::f64::consts::TAU * l as f64 / n_azimuths as f64;
+                let (control, inflow) = given(l, psi);
+                ((psi, harmonics.motion(x, psi, self.omega), control), inflow)
+            });
+            let (poses, inflow) = (known.map(|(pose, _)| pose), known.map(|(_, inflow)| inflow));
+            let loads = self.four_blade_loads(air, hub, &poses, &inflow);
+            for (pose, loads) in poses.iter().zip(&loads).take(n_azimuths - first) {
+                self.add_azimuth(harmonics, pose.0, n_azimuths, loads, &mut mean, f);
             }
         }
         mean
+    }
+
+    fn clear<S: Real>(&self, harmonics: &Harmonics, f: &mut [S]) {
+        for row in &mut f[harmonics.mode(0)..harmonics.mode(harmonics.n_modes)] {
+            *row = S::zero();
+        }
+    }
+
+    /// Adds the loads of a blade at `psi`, one of `n` azimuths, to the mean of all blades and the projected equations.
+    fn add_azimuth<S: Real>(
+        &self,
+        harmonics: &Harmonics,
+        psi: f64,
+        n: usize,
+        loads: &BladeLoads<S>,
+        mean: &mut BladeLoads<S>,
+        f: &mut [S],
+    ) {
+        let share = self.n_blades as f64 / n as f64;
+        mean.force += loads.force.scaled(share);
+        mean.moment += loads.moment.scaled(share);
+        mean.aero_force += loads.aero_force.scaled(share);
+        mean.aero_moment += loads.aero_moment.scaled(share);
+        for i in 0..harmonics.n_modes {
+            let start = harmonics.mode(i);
+            let residual = loads.modal[i] / n as f64;
+            f[start] += residual * self.angle_per_modal_force(i, 0);
+            for k in 1..=harmonics.n_harmonics {
+                let (s, c) = (k as f64 * psi).sin_cos();
+                let angle = 2.0 * self.angle_per_modal_force(i, k);
+                f[start + 2 * k - 1] += residual * (c * angle);
+                f[start + 2 * k] += residual * (s * angle);
+            }
+        }
     }
 
     /// Tip deflection of the first flap mode over R - e, per modal coordinate.

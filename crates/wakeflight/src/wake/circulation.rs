@@ -1,5 +1,6 @@
 //! Circulation of a blade solved together with its near wake.
 
+use super::continuation::{Path, Place, follow};
 use super::error::{WakeError, finite, length};
 use crate::numerics::linear::solve_in_place;
 
@@ -15,6 +16,8 @@ const MAX_EXACT_ITERATIONS: usize = 10;
 const MAX_HALVINGS: usize = 10;
 /// Most consecutive steps without descent (kinks of section tables).
 const MAX_FAILURES: usize = 3;
+/// Circulation over the steepest slope that counts as large along a path: an inflow.
+const PATH_SCALE: f64 = 0.05;
 
 /// Solution of the circulation and the near wake.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,10 +28,32 @@ pub struct CirculationSolution {
     pub inflow: Vec<f64>,
     /// Largest |gamma_section - gamma| [m2/s].
     pub residual: f64,
+    /// Station it is found at, from 0 at the root.
+    pub worst_station: usize,
     /// Newton iterations.
     pub iterations: usize,
-    /// Whether the residual is below the tolerance; otherwise this is the best iterate.
-    pub converged: bool,
+    /// How it was found; None: it was not, and this is no solution but where the search ended.
+    pub found_by: Option<Route>,
+}
+
+impl CirculationSolution {
+    /// Whether the equations are solved to the tolerance.
+    pub fn converged(&self) -> bool {
+        self.found_by.is_some()
+    }
+}
+
+/// Ways to a solution, in the order they are tried.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Route {
+    /// Newton from the start given.
+    Newton,
+    /// The path on which the defect of the start given goes to zero: the solution continuous with the start.
+    FromStart,
+    /// Newton from the circulation of sections with the far inflow's slopes.
+    Linear,
+    /// The path on which the near wake's influence grows from none to its own.
+    NearWake,
 }
 
 /// One evaluation: inflow, section circulation and slopes at `gamma`.
@@ -87,10 +112,16 @@ struct Problem<'a, F> {
 /// Newton steps (I - S N) dGamma = Gamma_section - Gamma, halved while the residual grows. Clipped slopes bring it close:
 /// with a stalled section's own slope Newton leaves for solutions far beyond stall. From there the slopes are taken as
 /// they are, which converges in two or three steps where clipped ones take fifteen or never arrive (reverse flow, high Mach
-/// number). What that finds is taken if it is near; otherwise the slopes stay clipped. Where all fails from the start
-/// given, once more from the circulation that sections of the far inflow's slope would have: a wide blade's start
-/// without near wake stalls its tip, and Newton does not come back from there. Values of `section` that are
-/// not finite are treated as an infinite residual and never accepted.
+/// number). What that finds is taken if it is near; otherwise the slopes stay clipped.
+///
+/// Where Newton does not arrive, the solution is followed along a path by arc length ([`follow`]): with the defect D_0 of
+/// the start, D = (1 - t) D_0 for t from 0 to 1 leads from the start to the solution continuous with it. Should it come
+/// back to t = 0, the influence of the near wake is let grow from none, where each station has one solution of its own, to
+/// all: Gamma = Gamma_section(lambda_far + t N Gamma). Lift coefficients are bounded and vanish where the inflow is all of
+/// the wind, so circulation stays bounded on the way and the path has nowhere to go but to t = 1. Between the two Newton is
+/// tried from the circulation that sections of the far inflow's slope would have: a wide blade's start without near wake
+/// stalls its tip, and Newton does not come back from there. Values of `section` that are not finite are treated as an
+/// infinite residual and never accepted.
 pub fn solve_circulation(
     lambda_far: &[f64],
     n_matrix: &[f64],
@@ -110,26 +141,16 @@ pub fn solve_circulation(
     let mut problem = Problem { far: lambda_far, near: n_matrix, floor: slope_floor, section: &mut section };
     let mut start = Iterate::new(n);
     start.gamma.copy_from_slice(gamma_start);
-    let mut best = problem.settle(start, tolerance);
-    if best.0.residual > tolerance {
-        let mut flat = Iterate::new(n);
-        problem.evaluate(&mut flat);
-        let mut linear = Iterate::new(n);
-        let mut jacobian = vec![0.0; n * n];
-        if problem.newton_step(&flat, Slopes::Clipped, &mut jacobian, &mut linear.gamma) {
-            let again = problem.settle(linear, tolerance);
-            if again.0.residual < best.0.residual {
-                best = (again.0, best.1 + again.1);
-            }
-        }
-    }
-    let (found, iterations) = best;
+    let (found, iterations, found_by) = problem.solve(start, tolerance);
+    let worst_station =
+        (0..n).fold(0, |w, i| if found.defect[i].abs() > found.defect[w].abs() { i } else { w });
     Ok(CirculationSolution {
         gamma: found.gamma,
         inflow: found.inflow,
-        converged: found.residual <= tolerance,
         residual: found.residual,
+        worst_station,
         iterations,
+        found_by,
     })
 }
 
@@ -150,6 +171,65 @@ impl<F: FnMut(&[f64], &mut [f64], &mut [f64])> Problem<'_, F> {
             largest = largest.max(at.defect[i].abs());
         }
         at.residual = if usable { largest } else { f64::INFINITY };
+    }
+
+    /// A solution, or the best iterate of Newton from `start` without a route.
+    fn solve(&mut self, start: Iterate, tolerance: f64) -> (Iterate, usize, Option<Route>) {
+        let gamma_start = start.gamma.clone();
+        let (newton, mut iterations) = self.settle(start, tolerance);
+        if newton.residual <= tolerance {
+            return (newton, iterations, Some(Route::Newton));
+        }
+        for route in [Route::FromStart, Route::Linear, Route::NearWake] {
+            let arrived = match route {
+                Route::Newton | Route::FromStart => self.along_defect(&gamma_start),
+                Route::Linear => self.linear(),
+                Route::NearWake => self.along_near_wake(),
+            };
+            let Some(gamma) = arrived else { continue };
+            let mut there = Iterate::new(gamma.len());
+            there.gamma = gamma;
+            let (found, n) = match route {
+                Route::Linear => self.settle(there, tolerance),
+                _ => self.descend(there, Slopes::Exact, tolerance),
+            };
+            iterations += n;
+            if found.residual <= tolerance {
+                return (found, iterations, Some(route));
+            }
+        }
+        (newton, iterations, None)
+    }
+
+    /// Circulation of sections that keep the slopes they have at the far inflow.
+    fn linear(&mut self) -> Option<Vec<f64>> {
+        let n = self.far.len();
+        let mut flat = Iterate::new(n);
+        self.evaluate(&mut flat);
+        let mut gamma = vec![0.0; n];
+        self.newton_step(&flat, Slopes::Clipped, &mut vec![0.0; n * n], &mut gamma).then_some(gamma)
+    }
+
+    fn path_scale(&self) -> f64 {
+        PATH_SCALE * self.floor.iter().fold(0.0f64, |most, s| most.max(s.abs()))
+    }
+
+    /// From `start`, where the defect is D_0, along D = (1 - t) D_0.
+    fn along_defect(&mut self, start: &[f64]) -> Option<Vec<f64>> {
+        let mut first = Iterate::new(start.len());
+        first.gamma.copy_from_slice(start);
+        self.evaluate(&mut first);
+        let scale = self.path_scale();
+        follow(&mut DefectPath { problem: self, first }, start, scale)
+    }
+
+    /// From the circulation without near wake along Gamma = Gamma_section(lambda_far + t N Gamma).
+    fn along_near_wake(&mut self) -> Option<Vec<f64>> {
+        let mut none = Iterate::new(self.far.len());
+        self.evaluate(&mut none);
+        let (start, scale) = (none.defect, self.path_scale());
+        let here = Iterate::new(start.len());
+        follow(&mut NearWakePath { problem: self, here }, &start, scale)
     }
 
     /// (I - S N)^-1 (Gamma_section - Gamma) into `step`; false where it does not exist.
@@ -241,6 +321,53 @@ impl<F: FnMut(&[f64], &mut [f64], &mut [f64])> Problem<'_, F> {
     }
 }
 
+/// D(Gamma) - (1 - t) D_0 = 0.
+struct DefectPath<'p, 'a, F> {
+    problem: &'p mut Problem<'a, F>,
+    first: Iterate,
+}
+
+impl<F: FnMut(&[f64], &mut [f64], &mut [f64])> Path for DefectPath<'_, '_, F> {
+    fn evaluate(&mut self, x: &[f64], t: f64, at: &mut Place) -> bool {
+        let n = x.len();
+        let mut here = Iterate::new(n);
+        here.gamma.copy_from_slice(x);
+        self.problem.evaluate(&mut here);
+        for i in 0..n {
+            at.value[i] = here.defect[i] - (1.0 - t) * self.first.defect[i];
+            for j in 0..n {
+                at.slope[i * n + j] = here.slope[i] * self.problem.near[i * n + j] - f64::from(i == j);
+            }
+        }
+        at.by_parameter.copy_from_slice(&self.first.defect);
+        here.residual.is_finite()
+    }
+}
+
+/// Gamma_section(lambda_far + t N Gamma) - Gamma = 0.
+struct NearWakePath<'p, 'a, F> {
+    problem: &'p mut Problem<'a, F>,
+    here: Iterate,
+}
+
+impl<F: FnMut(&[f64], &mut [f64], &mut [f64])> Path for NearWakePath<'_, '_, F> {
+    fn evaluate(&mut self, x: &[f64], t: f64, at: &mut Place) -> bool {
+        let n = x.len();
+        // the near wake's inflow is linear: t N Gamma is that of t Gamma
+        self.here.gamma.iter_mut().zip(x).for_each(|(gamma, x)| *gamma = t * x);
+        self.problem.evaluate(&mut self.here);
+        for i in 0..n {
+            let (slope, row) = (self.here.slope[i], &self.problem.near[i * n..(i + 1) * n]);
+            at.value[i] = self.here.defect[i] + t * x[i] - x[i];
+            at.by_parameter[i] = slope * row.iter().zip(x).map(|(a, x)| a * x).sum::<f64>();
+            for j in 0..n {
+                at.slope[i * n + j] = t * slope * row[j] - f64::from(i == j);
+            }
+        }
+        self.here.residual.is_finite()
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -269,7 +396,7 @@ mod tests {
         };
         let floor = vec![-3.0 * options.chord * options.tip_speed(); n];
         let solution = solve_circulation(&far, &matrix, section, &vec![0.0; n], &floor, 1e-9).unwrap();
-        assert!(solution.converged && solution.iterations <= 2, "{solution:?}");
+        assert!(solution.converged() && solution.iterations <= 2, "{solution:?}");
         for i in 0..n {
             let near: f64 = (0..n).map(|j| matrix[i * n + j] * solution.gamma[j]).sum();
             assert!((solution.gamma[i] - slope * (0.12 - 0.05 - near)).abs() < 1e-8);
@@ -297,7 +424,95 @@ mod tests {
         let solution =
             solve_circulation(&vec![0.04; n], &matrix, section, &vec![0.0; n], &vec![-3.0 * k; n], 1e-9)
                 .unwrap();
-        assert!(solution.converged, "{} after {}", solution.residual, solution.iterations);
+        assert!(solution.converged(), "{} after {}", solution.residual, solution.iterations);
+    }
+
+    /// Lift coefficient and its slope of a section that stalls at 14 deg and is a flat plate beyond, over the whole circle;
+    /// kinks at every 2 degrees, as a table has them.
+    fn kinked_lift(alpha: f64) -> (f64, f64) {
+        let node = |i: f64| {
+            let a: f64 = i * 2f64.to_radians();
+            let plate = 1.1 * (2.0 * a).sin();
+            let attached = 6.0 * a.sin() * a.cos();
+            if a.cos() > 0.0 && a.sin().abs() < 14f64.to_radians().sin() { attached } else { plate }
+        };
+        let position = alpha.to_degrees() / 2.0;
+        let (low, high) = (node(position.floor()), node(position.floor() + 1.0));
+        (low + (high - low) * (position - position.floor()), (high - low) / 2f64.to_radians())
+    }
+
+    #[test]
+    fn every_problem_within_reach_of_a_helicopter_has_a_solution_and_it_is_found() {
+        // advance ratios to 0.6, all azimuths, pitch to 40 deg, far inflow of either sign, starts from far away
+        let (options, _) = rotor();
+        let (n, tip_speed) = (options.n_stations, options.tip_speed());
+        let grid = crate::wake::geometry::BladeGrid::new(&options);
+        let mut seed = 1u64;
+        let mut random = |low: f64, high: f64| {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            low + (high - low) * (seed >> 11) as f64 / 9_007_199_254_740_992.0
+        };
+        let mut found = [0; 4];
+        for _ in 0..1000 {
+            let mu = random(0.0, 0.6);
+            let psi = random(0.0, std::f64::consts::TAU);
+            let velocity = [-mu * tip_speed, random(-0.05, 0.05) * tip_speed, random(-0.1, 0.1) * tip_speed];
+            let hub = HubMotion { velocity, ..HubMotion::default() };
+            let state = BladeState { psi, flap: random(-0.1, 0.2), lead: random(-0.1, 0.1) };
+            let near = near_wake_matrix(&options, &hub, &state).unwrap();
+            let pitch: Vec<f64> = {
+                let root = random(-0.3, 0.7);
+                grid.stations.iter().map(|r| root - 0.3 * r / options.radius).collect()
+            };
+            let far: Vec<f64> = {
+                let mean = random(-0.1, 0.1);
+                (0..n).map(|_| mean + random(-0.05, 0.05)).collect()
+            };
+            let along: Vec<f64> =
+                grid.stations.iter().map(|r| options.omega * r + mu * tip_speed * psi.sin()).collect();
+            let speed = |i: usize, lambda: f64| (lambda * tip_speed).hypot(along[i]);
+            let section = |lambda: &[f64], gamma: &mut [f64], slope: &mut [f64]| {
+                for i in 0..n {
+                    let (up, v) = (-lambda[i] * tip_speed, speed(i, lambda[i]));
+                    let (cl, by_alpha) = kinked_lift(pitch[i] + up.atan2(along[i]));
+                    gamma[i] = 0.5 * options.chord * v * cl;
+                    slope[i] = -0.5 * options.chord * tip_speed * (up * cl + along[i] * by_alpha) / v;
+                }
+            };
+            let far_off = random(0.0, 40.0);
+            let start: Vec<f64> = (0..n).map(|_| random(-far_off, far_off)).collect();
+            let floor = vec![-3.0 * options.chord * tip_speed; n];
+            let solution = solve_circulation(&far, &near, section, &start, &floor, 1e-5).unwrap();
+            assert!(solution.converged(), "mu {mu}, psi {}: {}", psi.to_degrees(), solution.residual);
+            found[solution.found_by.unwrap() as usize] += 1;
+            for i in 0..n {
+                // |cl| is nowhere above 1.41
+                let most = 0.5 * options.chord * speed(i, solution.inflow[i]) * 1.41;
+                assert!(
+                    solution.gamma[i].abs() <= most + 1e-5,
+                    "station {i}: {} of {most}",
+                    solution.gamma[i]
+                );
+            }
+        }
+        // the problems are hard enough that Newton alone leaves some
+        assert!(found[1] > 0, "{found:?}");
+    }
+
+    #[test]
+    fn of_several_solutions_the_one_continuous_with_the_start_is_taken() {
+        // one station whose lift falls by its own near wake's upwash: Gamma = f(N Gamma) with three solutions
+        let lift = |l: f64| (10.0 * l).tanh() + 0.1 * (l - 0.02);
+        let section = |lambda: &[f64], gamma: &mut [f64], slope: &mut [f64]| {
+            gamma[0] = lift(lambda[0]);
+            slope[0] = (lift(lambda[0] + 1e-7) - lift(lambda[0] - 1e-7)) / 2e-7;
+        };
+        let solved = |start: f64| {
+            let found = solve_circulation(&[0.0], &[0.5], section, &[start], &[-1.0], 1e-10).unwrap();
+            assert!(found.converged());
+            found.gamma[0]
+        };
+        assert!(solved(0.8) > 0.9 && solved(-0.8) < -0.9);
     }
 
     #[test]
@@ -307,7 +522,7 @@ mod tests {
         let section = |_: &[f64], gamma: &mut [f64], _: &mut [f64]| gamma.fill(f64::NAN);
         let solution =
             solve_circulation(&vec![0.0; n], &matrix, section, &vec![1.0; n], &vec![-1.0; n], 1e-9).unwrap();
-        assert!(!solution.converged && solution.residual.is_infinite());
+        assert!(!solution.converged() && solution.residual.is_infinite());
         assert!(solution.gamma.iter().chain(&solution.inflow).all(|v| v.is_finite()));
         assert!(
             solve_circulation(&vec![f64::NAN; n], &matrix, section, &vec![1.0; n], &vec![-1.0; n], 1e-9)

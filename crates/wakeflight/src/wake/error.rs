@@ -33,6 +33,30 @@ pub enum WakeError {
         /// First bad entry.
         index: usize,
     },
+    /// Circulation and near wake of a blade do not agree.
+    #[error(
+        "no circulation found that its near wake allows: blade {blade} at azimuth {azimuth:.1} deg, station {station} at \
+         {radius:.3} R, where section and bound circulation differ by {residual:.3e} m2/s (allowed {tolerance:.1e}); \
+         circulation there {circulation:.3} m2/s, inflow {inflow:.4} of the tip speed"
+    )]
+    Circulation {
+        /// Blade, or instant where several azimuths of one blade are solved, from 0.
+        blade: usize,
+        /// Azimuth [deg].
+        azimuth: f64,
+        /// Station, from 0 at the root.
+        station: usize,
+        /// Its radius over R.
+        radius: f64,
+        /// Difference left [m2/s].
+        residual: f64,
+        /// Difference allowed [m2/s].
+        tolerance: f64,
+        /// Bound circulation where the search ended [m2/s].
+        circulation: f64,
+        /// Inflow where the search ended.
+        inflow: f64,
+    },
     /// A marker left the range of numbers, or moved further in one step than the guard allows.
     #[error(
         "wake marker {marker} of filament {filament} moved {displacement} R in one step (limit {limit} R), step {step}"
@@ -54,7 +78,7 @@ pub enum WakeError {
 impl WakeError {
     /// Whether the failure is numerical; otherwise the input was at fault.
     pub fn is_numerical(&self) -> bool {
-        matches!(self, WakeError::Diverged { .. })
+        matches!(self, WakeError::Diverged { .. } | WakeError::Circulation { .. })
     }
 }
 

@@ -9,7 +9,7 @@ use super::circulation::solve_circulation;
 use super::error::WakeError;
 use super::geometry::BladeGrid;
 use super::motion::{BladeState, HubMotion};
-use super::near_wake::trailers;
+use super::near_wake::{trailer_cores, trailers};
 use super::options::WakeOptions;
 use crate::vortex::core::Core;
 use crate::vortex::sources::{Group, Sources, add_groups_velocity};
@@ -18,11 +18,13 @@ use std::f64::consts::PI;
 /// Velocity along -`up` at the control points per unit circulation of each element, row-major (n, n) [1/m].
 ///
 /// * `trailers` (n + 1): nodes of each trailer from its edge on the bound line downstream;
+/// * `cores` (n + 1) [m]: radius of the solid core of each trailer, 0 for none;
 /// * `with_bound`: whether the bound elements between the first nodes of the trailers count.
 ///
 /// An element of circulation Gamma_j feeds the trailer at its outer edge and takes from that at its inner edge.
 pub fn influence(
     trailers: &[Vec<[f64; 3]>],
+    cores: &[f64],
     control: &[[f64; 3]],
     up: [f64; 3],
     with_bound: bool,
@@ -30,9 +32,9 @@ pub fn influence(
     let n = control.len();
     let mut sources = Sources::default();
     let mut marks = vec![sources.mark()];
-    for nodes in trailers {
+    for (nodes, core) in trailers.iter().zip(cores) {
         for ends in nodes.windows(2) {
-            sources.push(ends[0], ends[1], 1.0, 0.0);
+            sources.push(ends[0], ends[1], 1.0, *core);
         }
         marks.push(sources.mark());
     }
@@ -48,7 +50,7 @@ pub fn influence(
         velocity.fill([0.0; 3]);
         let part = [sources.part(ends[0], ends[1])];
         let mut groups = [Group { points: control, sources: &part, velocity: &mut velocity }];
-        add_groups_velocity(&mut groups, Core::Singular, CoreDistance::Line.into());
+        add_groups_velocity(&mut groups, Core::Rankine, CoreDistance::Line.into());
         for (row, v) in matrix.chunks_exact_mut(n).zip(&velocity) {
             let w = -(v[0] * up[0] + v[1] * up[1] + v[2] * up[2]);
             match line.checked_sub(trailers.len()) {
@@ -107,7 +109,7 @@ pub fn weissinger_matrix(
     let grid = BladeGrid::new(options);
     let lines = trailers(options, &grid, hub, blade);
     let control: Vec<[f64; 3]> = (0..n).map(|j| between(&lines[j], &lines[j + 1], 0.5 * chords[j])).collect();
-    let mut matrix = influence(&lines, &control, [0.0, 0.0, 1.0], true);
+    let mut matrix = influence(&lines, &trailer_cores(&grid), &control, [0.0, 0.0, 1.0], true);
     for (i, chord) in chords.iter().enumerate() {
         matrix[i * n + i] -= 1.0 / (PI * chord);
     }
@@ -152,7 +154,7 @@ pub fn wing_circulation(
     let weissinger = line == ControlLine::ThreeQuarter;
     let control: Vec<[f64; 3]> =
         (0..n).map(|j| [if weissinger { 0.5 * chords[j] } else { 0.0 }, stations[j], 0.0]).collect();
-    let mut matrix = influence(&lines, &control, [0.0, 0.0, 1.0], weissinger);
+    let mut matrix = influence(&lines, &vec![0.0; n + 1], &control, [0.0, 0.0, 1.0], weissinger);
     if weissinger {
         for (i, chord) in chords.iter().enumerate() {
             matrix[i * n + i] -= 1.0 / (PI * chord);

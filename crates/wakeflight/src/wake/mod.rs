@@ -4,6 +4,7 @@
 
 pub mod choices;
 pub mod circulation;
+mod continuation;
 pub mod error;
 mod far_cylinder;
 pub mod filament;
@@ -28,7 +29,7 @@ pub use choices::{
     CoreDistance, Evaluation, FarWake, Form, InboardWake, Predictor, Scheme, ShedWake, Summation,
     TipStrength, Trailers,
 };
-pub use circulation::{CirculationSolution, solve_circulation};
+pub use circulation::{CirculationSolution, Route, solve_circulation};
 pub use error::WakeError;
 pub use lifting_surface::weissinger_matrix;
 pub use motion::{BladeState, HubMotion};

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""What limits a trim, in the engineer's words: sticks, stall of the rotors, the vortex-ring range."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from . import _core
+from .inflow import DynamicInflow
+from .limits import in_vortex_ring, stall_angles, stalled, sticks_beyond
+from .model import Model
+from .trim_equations import INCH
+
+STALLED = 0.05
+"""Share of the disk beyond stall from which it is named."""
+SLOW = 0.3
+"""Section speed over the tip speed below which stall is not counted: the surroundings of the reversed flow."""
+TAIL_LOADING = 0.15
+"""C_T/sigma of a tail rotor, a mean lift coefficient of 0.9, beyond which its thrust formula knows no stall but blades do."""
+STICKS = ("lateral", "longitudinal", "collective", "pedal")
+
+
+def limiting(model: Model, problem: _core.TrimProblem, x: np.ndarray, inflow_map: np.ndarray | None = None) -> list[str]:
+    """What is at or beyond a limit at the unknowns `x`; inflow_map (n_azimuths, n_stations): the one held, if any."""
+    if not np.all(np.isfinite(x)):
+        return []
+    texts = []
+    rotor = over_the_disk(model, problem, x, inflow_map)
+    share, loading = rotor["stalled"], rotor["ct"] / model.aircraft.solidity
+    if share > STALLED:
+        texts.append(f"main rotor: {100 * share:.0f} % of the disk beyond stall at C_T/sigma {loading:.3f}")
+    texts += sticks_beyond(dict(zip(STICKS, (x[:4] / INCH).tolist(), strict=True)), model.aircraft.stick_travel_in)
+    tail = tail_loading(model, problem, x)
+    if tail is not None and abs(tail) > TAIL_LOADING:
+        texts.append(f"tail rotor: beyond its thrust at C_T/sigma {tail:.3f}")
+    hub, _ = model.core.hub(model.core.trim_state(problem, x, 0.0)[0])
+    hover = np.sqrt(0.5 * abs(rotor["ct"])) * model.tip_speed
+    if in_vortex_ring(-hub[2], np.hypot(hub[0], hub[1]), hover):
+        answer = "momentum inflow has no answer" if isinstance(model.inflow, DynamicInflow) else "the wake stays in the disk"
+        texts.append(
+            f"axial flow in the vortex-ring range (descent at {-hub[2] / hover:.2f} of the induced velocity of hover): {answer}"
+        )
+    return texts
+
+
+def over_the_disk(
+    model: Model, problem: _core.TrimProblem, x: np.ndarray, inflow_map: np.ndarray | None
+) -> dict[str, Any]:
+    """Share of the disk beyond stall, reversed flow and slow sections not counted, and C_T; means over a revolution."""
+    core, n_blades = model.core, model.n_blades
+    n = model.steps_per_revolution if inflow_map is None else inflow_map.shape[0]
+    beyond, ct = [], []
+    angles = stall_angles(model.data["rotor"]["airfoil"])
+    slow = SLOW * model.tip_speed / model.speed_of_sound
+    incidence = core.trim_stabilator(problem, x)
+    for k in range(n // n_blades):
+        t = 2 * np.pi * k / n / model.omega
+        rows = [(k + b * n // n_blades) % n for b in range(n_blades)]
+        held, mean = (None, 0.0) if inflow_map is None else (inflow_map[rows], model.disk_mean(inflow_map))
+        inputs = _core.Inputs(x[:4], np.zeros(4), 0.0, held, mean, incidence)
+        out = core.outputs(t, *core.trim_state(problem, x, t), inputs)
+        beyond.append(stalled(angles, out["alpha"], out["mach"]) & (out["mach"] >= slow))
+        ct.append(out["ct"])
+    return {"stalled": float(np.mean(np.array(beyond) @ model.area_weights)), "ct": float(np.mean(ct))}
+
+
+def tail_loading(model: Model, problem: _core.TrimProblem, x: np.ndarray) -> float | None:
+    """C_T/sigma of the tail rotor by the momentum of its inflow, C_T = 2 lambda_i sqrt(mu^2 + lambda^2); None without one."""
+    tail = model.data["tail_rotor"]
+    if tail is None:
+        return None
+    _, _, at = model.core.trim_layout(problem)
+    y, _ = model.core.trim_state(problem, x, 0.0)
+    sin, cos = np.sin(tail["cant"]), np.cos(tail["cant"])
+    velocity = (y[:3] + np.cross(y[3:6], tail["position"])) / (tail["omega"] * tail["radius"])
+    axial, across = velocity[1] * cos - velocity[2] * sin, velocity[1] * sin + velocity[2] * cos
+    mu = np.hypot(velocity[0], across)
+    return float(2 * x[at] * np.hypot(mu, x[at] + axial) / tail["solidity"])

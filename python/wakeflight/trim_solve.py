@@ -1,0 +1,242 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""Trim with dynamic inflow wherever there is one: several starts, each followed to the condition asked for.
+
+The closed-form start comes first, and what Newton's method finds from it is the trim, also where there are others. Where it finds
+none, trims are followed from a condition that is easier in one respect: nose on the wind, straight, from hover, level, light.
+Where such a path ends before its goal, the last trim on it tells what limits. All is deterministic; a budget of
+linearisations bounds the work.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from . import _core
+from .condition import FlightCondition, smooth_step
+from .errors import NumericalFailure
+from .model import Model
+from .trim_equations import INCH, PITCH, ROLL, YAW, normalised, scales, trim_problem, unmet
+from .trim_limits import limiting
+from .trim_newton import Attempt, Work, newton
+from .trim_start import first_guess
+from .units import STANDARD_GRAVITY, convert
+
+BUDGET = 200
+"""Linearisations of one trim with dynamic inflow at most, 10 ms each."""
+FOLLOWED = 14
+"""Newton steps of a point on a path at most: a path in reach needs four to six."""
+LEAST_ADVANCE = 1.0 / 64.0
+"""Shortest piece of a path that is tried."""
+LARGEST_CHANGE = 15.0
+"""Largest change of a stick or of roll and pitch from where the last trims on a path point: 1.5 in, 15 deg."""
+LIGHT = 0.05
+"""Blade loading C_T/sigma of the light aircraft from which weight is followed."""
+
+
+@dataclass(frozen=True)
+class Path:
+    """Conditions from an easy one (0) to that asked for (1); `told` says where the trim `x` on it stands."""
+
+    at: Callable[[float], FlightCondition]
+    told: Callable[[FlightCondition, np.ndarray], str]
+
+
+@dataclass(frozen=True)
+class Reached:
+    """How far a path was followed: share of it, and the last trim on it."""
+
+    share: float
+    model: Model
+    problem: _core.TrimProblem
+    x: np.ndarray
+    told: str
+
+
+def solve_condition(model: Model, n_harmonics: int = 8, work: Work | None = None) -> tuple[_core.TrimProblem, np.ndarray]:
+    """Trim of the model's condition with dynamic inflow: its equations and unknowns."""
+    work = work or Work(BUDGET)
+    problem = trim_problem(model, None, n_harmonics)
+    attempt = newton(model, problem, first_guess(model, problem), work)
+    if attempt.met:
+        return problem, attempt.x
+    ended: list[Reached] = []
+    for path in paths(model, n_harmonics, work):
+        reached = follow(model, path, n_harmonics, work)
+        if reached is None:
+            continue
+        if reached.share == 1.0:
+            return problem, reached.x
+        ended.append(reached)
+    last = newton(model, problem, mid_sticks(model, problem), work)
+    if last.met:
+        return problem, last.x
+    raise NumericalFailure(why_none(model, problem, attempt, ended))
+
+
+def solve_on_map(
+    model: Model,
+    inflow_map: np.ndarray,
+    x: np.ndarray,
+    n_harmonics: int = 8,
+    before: np.ndarray | None = None,
+) -> tuple[_core.TrimProblem, np.ndarray]:
+    """Trim on a held inflow map (n_azimuths, n_stations) from the unknowns `x` of a trim on the map `before`."""
+    work = Work(BUDGET)
+    problem = trim_problem(model, inflow_map, n_harmonics)
+    attempt = newton(model, problem, x, work)
+    share = 0.0
+    advance = 0.5
+    while not attempt.met and before is not None and work.left > 0 and advance >= LEAST_ADVANCE:
+        # the map is changed piece by piece
+        part = min(1.0, share + advance)
+        partly = trim_problem(model, before + part * (inflow_map - before), n_harmonics)
+        piece = newton(model, partly, x, work, FOLLOWED)
+        if piece.met:
+            share, x, advance = part, piece.x, 1.5 * advance
+            attempt = piece if share == 1.0 else attempt
+        else:
+            advance *= 0.5
+    if attempt.met:
+        return problem, attempt.x
+    limits = "; ".join(limiting(model, problem, attempt.x, inflow_map)) or "no stick, stall or inflow limit is near"
+    raise NumericalFailure(f"no trim found on the inflow of the wake: {limits} [{unmet(model, problem, attempt.x)}]")
+
+
+def paths(model: Model, n_harmonics: int, work: Work) -> Iterator[Path]:
+    """Paths to the condition, the one that tells most where it ends first."""
+    c = model.condition
+    if c.bank_share > 0.0:
+        yield to_bank(model, n_harmonics, work)
+    if c.turn_rate != 0.0:
+        yield Path(
+            lambda s: c.changed(turn_rate=s * c.turn_rate, bank=np.arctan(s * np.tan(c.bank or 0.0))),
+            lambda now, x: f"turns end at {told_turn(now, x)} of {np.degrees(abs(c.turn_rate)):.1f} deg/s",
+        )
+    slope = abs(c.flight_path)
+    if c.speed > 0.0:
+        speeds = Path(
+            lambda s: c.changed(speed=s * c.speed, bank_share=c.bank_share * smooth_step(2.0 * s - 1.0)),
+            lambda now, x: f"speeds end at {told_speed(now.speed)} of {told_speed(c.speed)}",
+        )
+        slopes = Path(
+            lambda s: c.changed(flight_path=s * c.flight_path),
+            lambda now, x: f"paths end at {np.degrees(now.flight_path):.1f} of {np.degrees(c.flight_path):.1f} deg",
+        )
+        # a steep path is followed from hover, a shallow one from level flight
+        steep = slope > np.radians(30.0)
+        yield from (speeds, slopes) if steep else (slopes, speeds) if slope > np.radians(3.0) else (speeds,)
+    light = c.gross_mass * LIGHT / blade_loading(model)
+    if light < c.gross_mass:
+        yield Path(
+            lambda s: c.changed(gross_mass=light + s * (c.gross_mass - light)),
+            lambda now, x: f"weights end at {told_mass(now.gross_mass)} of {told_mass(c.gross_mass)} lb",
+        )
+
+
+def to_bank(model: Model, n_harmonics: int, work: Work) -> Path:
+    """From the trim with the nose on the wind, whose bank is found, to the bank asked for."""
+    c = model.condition
+    aligned = replace(model, condition=c.changed(bank_share=0.0, sideslip=0.0, bank=0.0))
+    _, x = solve_condition(aligned, n_harmonics, work)
+    found, asked = float(x[ROLL]), c.bank or 0.0
+    if c.bank_share < 1.0:
+        return Path(
+            lambda s: c.changed(bank_share=s * c.bank_share),
+            lambda now, x: f"the share of the bank in the convention ends at {now.bank_share:.2f} of {c.bank_share:.2f}",
+        )
+    return Path(
+        lambda s: c.changed(bank=found + s * (asked - found)),
+        lambda now, x: (
+            f"with the heading free sideslip holds no bank beyond {np.degrees(x[ROLL]):.1f} of {np.degrees(asked):.1f} deg "
+            f"(heading against track {np.degrees(x[YAW]):.0f} deg there; nose on the wind it is {np.degrees(found):.1f} deg)"
+        ),
+    )
+
+
+def follow(model: Model, path: Path, n_harmonics: int, work: Work) -> Reached | None:
+    """Trims along a path, from 0 as far as they go; None where it does not begin."""
+    here, problem = at(model, path, 0.0, n_harmonics)
+    attempt = newton(here, problem, first_guess(here, problem), work)
+    if not attempt.met:
+        return None
+    reached = Reached(0.0, here, problem, attempt.x, path.told(here.condition, attempt.x))
+    before: Reached | None = None
+    advance = 0.25
+    while reached.share < 1.0 and advance >= LEAST_ADVANCE and work.left > 0:
+        share = min(1.0, reached.share + advance)
+        here, problem = at(model, path, share, n_harmonics)
+        start = reached.x
+        if before is not None:
+            # along the secant of the last two
+            start = start + (share - reached.share) / (reached.share - before.share) * (start - before.x)
+        attempt = newton(here, problem, start, work, FOLLOWED)
+        if attempt.met and not jumped(here, problem, start, attempt.x):
+            before = reached
+            reached = Reached(share, here, problem, attempt.x, path.told(here.condition, attempt.x))
+            advance *= 1.5 if attempt.steps <= FOLLOWED // 2 else 1.0
+        else:
+            advance *= 0.5
+    return reached
+
+
+def jumped(model: Model, problem: _core.TrimProblem, expected: np.ndarray, found: np.ndarray) -> bool:
+    """Whether a trim on a path is another than the one followed: beyond stall a second one exists, at far more collective."""
+    change = np.abs(normalised(found) - expected)[:YAW] / scales(model, problem, found.size)[:YAW]
+    return float(np.max(change)) > LARGEST_CHANGE
+
+
+def at(model: Model, path: Path, share: float, n_harmonics: int) -> tuple[Model, _core.TrimProblem]:
+    """Model and equations of a point of a path; at its end those of the condition itself."""
+    condition = model.condition if share == 1.0 else path.at(share)
+    if condition.gross_mass == model.condition.gross_mass:
+        here = replace(model, condition=condition)
+    else:
+        here = Model.build(model.aircraft, condition, model.inflow)
+    return here, trim_problem(here, None, n_harmonics)
+
+
+def mid_sticks(model: Model, problem: _core.TrimProblem) -> np.ndarray:
+    """The closed-form start with sticks at mid travel and the aircraft level."""
+    x = first_guess(model, problem)
+    x[:4] = 0.5 * INCH * np.asarray(model.aircraft.stick_travel_in)
+    x[ROLL] = x[PITCH] = 0.0
+    return x
+
+
+def why_none(model: Model, problem: _core.TrimProblem, attempt: Attempt, ended: list[Reached]) -> str:
+    """What limits, where the paths to the condition ended, and the equation that is not met."""
+    stopped = f"[{unmet(model, problem, attempt.x)}]"
+    if not ended:
+        limits = "; ".join(limiting(model, problem, attempt.x)) or "no stick, stall or inflow limit is near"
+        return f"no trim found: {limits}, where the iteration stopped {stopped}"
+    told = [(limiting(each.model, each.problem, each.x), each.told) for each in ended]
+    # the first path that ended at a limit, else the first
+    limits, where = next((each for each in told if each[0]), told[0])
+    if not limits:
+        return f"no trim found: {where}, without a stick, stall or inflow limit in the last trim {stopped}"
+    return f"no trim found: {'; '.join(limits)}, where {where} {stopped}"
+
+
+def blade_loading(model: Model) -> float:
+    """C_T/sigma that carries the weight in straight flight."""
+    force = model.density * np.pi * model.rotor["radius"] ** 2 * model.tip_speed**2
+    return model.condition.gross_mass * STANDARD_GRAVITY / force / model.aircraft.solidity
+
+
+def told_turn(now: FlightCondition, x: np.ndarray) -> str:
+    """Rate, bank and load factor of a turn."""
+    load = np.hypot(1.0, now.turn_rate * now.speed * np.cos(now.flight_path) / STANDARD_GRAVITY)
+    return f"{np.degrees(x[ROLL]):.0f} deg of bank, load factor {load:.2f}, {np.degrees(abs(now.turn_rate)):.1f}"
+
+
+def told_speed(speed: float) -> str:
+    """A speed as the condition is given: knots, slow ones in m/s."""
+    return f"{convert(speed, 'm/s', 'kt'):.0f} kt" if speed > 10.0 else f"{speed:.1f} m/s"
+
+
+def told_mass(mass: float) -> str:
+    """A mass in pounds."""
+    return f"{convert(mass, 'kg', 'lb'):.0f}"
