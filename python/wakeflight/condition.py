@@ -137,7 +137,9 @@ class FlightCondition:
                 f"at a horizontal speed below {shown(SLOWEST_FREE, 'm/s')} no heading changes the side force; "
                 "heading = aligned lets trim find the bank"
             )
-            raise InputError.of("heading", "free" if self.bank is None else f"free (bank {shown(self.bank, 'deg')})", allowed)
+            raise InputError.of(
+                "heading", "free" if self.bank is None else f"free (bank {shown(self.bank, 'deg')})", allowed
+            )
         if values["heading"] == "free":
             values["bank"] = 0.0 if values["bank"] is None else values["bank"]
         else:

@@ -19,6 +19,8 @@ CLEAR = 0.7
 """Share of the kinetic energy from which a mode is called by one kind alone."""
 LEAST = 0.3
 """Share with which a mode may still stand for a name."""
+NEAR = 0.05
+"""Relative difference of frequency below which a mode of another kind is worth naming beside the one of the same kind."""
 NOISE = 0.02
 """Deflections below this share of the largest do not make a node."""
 
@@ -165,7 +167,7 @@ def reference_table(aircraft: Aircraft, modes: BladeModes) -> str | None:
             i = found[_kind_and_order(name)]
             nearest = int(np.argmin(np.abs(ours - value)))
             text = "none of ours" if i is None else _compared(ours[i], value, labels[i])
-            if nearest != i:
+            if nearest != i and abs(ours[nearest] / value - 1) < NEAR:
                 text += f"; nearest {_compared(ours[nearest], value, labels[nearest])}"
             lines.append(f"    {name:<20} {value:8.4f}  {text}")
     return "\n".join(lines)
@@ -188,10 +190,14 @@ def mode_labels(rotor: Aircraft | Rotor) -> list[str]:
     return ["lag 1", "flap 1"][2 - loaded.discretisation.n_modes :] if loaded.discretisation.n_modes else []
 
 
-def fan(aircraft: Aircraft, n_modes: int = 7) -> tuple[np.ndarray, np.ndarray]:
-    """Rotor speeds up to the nominal one (n,) and frequencies (n, n_modes), both [rad/s], for a fan plot."""
+def fan(aircraft: Aircraft, n_modes: int = 7) -> tuple[np.ndarray, np.ndarray, list[str]]:
+    """For a fan plot: rotor speeds up to the nominal one (n,), frequencies (n, n_modes), both [rad/s], labels at the nominal one.
+
+    A line is the mode of one place in ascending order: where two lines approach and part, the modes exchange what they are.
+    """
     speeds = np.linspace(0.1, 1.0, 19) * float(aircraft.rotor.omega)
-    return speeds, np.array([blade_modes(aircraft, n_modes, rotor_speed=w).frequencies * w for w in speeds])
+    found = [blade_modes(aircraft, n_modes, rotor_speed=w) for w in speeds]
+    return speeds, np.array([each.natural_frequencies for each in found]), found[-1].labels
 
 
 def fan_reference(aircraft: Aircraft) -> dict[str, tuple[np.ndarray, np.ndarray]]:

@@ -12,6 +12,7 @@ from . import _core
 from .inflow import DynamicInflow
 from .maneuvers import Maneuver
 from .model import Model
+from .modes import mode_labels
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -266,6 +267,7 @@ class Recorder:
             "inflow_model": model.inflow.name,
             "radius": model.rotor["radius"],
             "omega": model.omega,
+            "blade_modes": mode_labels(start.aircraft),
             "configuration": configuration,
             "condition": start.condition.as_attributes(),
             "ct": mean["ct"],

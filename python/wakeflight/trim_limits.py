@@ -22,7 +22,9 @@ TAIL_LOADING = 0.15
 STICKS = ("lateral", "longitudinal", "collective", "pedal")
 
 
-def limiting(model: Model, problem: _core.TrimProblem, x: np.ndarray, inflow_map: np.ndarray | None = None) -> list[str]:
+def limiting(
+    model: Model, problem: _core.TrimProblem, x: np.ndarray, inflow_map: np.ndarray | None = None
+) -> list[str]:
     """What is at or beyond a limit at the unknowns `x`; inflow_map (n_azimuths, n_stations): the one held, if any."""
     if not np.all(np.isfinite(x)):
         return []
@@ -38,7 +40,9 @@ def limiting(model: Model, problem: _core.TrimProblem, x: np.ndarray, inflow_map
     hub, _ = model.core.hub(model.core.trim_state(problem, x, 0.0)[0])
     hover = np.sqrt(0.5 * abs(rotor["ct"])) * model.tip_speed
     if in_vortex_ring(-hub[2], np.hypot(hub[0], hub[1]), hover):
-        answer = "momentum inflow has no answer" if isinstance(model.inflow, DynamicInflow) else "the wake stays in the disk"
+        answer = (
+            "momentum inflow has no answer" if isinstance(model.inflow, DynamicInflow) else "the wake stays in the disk"
+        )
         texts.append(
             f"axial flow in the vortex-ring range (descent at {-hub[2] / hover:.2f} of the induced velocity of hover): {answer}"
         )

@@ -9,6 +9,7 @@ import numpy as np
 
 from .inflow import DynamicInflow
 from .model import flight_regime
+from .modes import mode_labels
 from .regime import REGIMES
 
 if TYPE_CHECKING:
@@ -59,16 +60,8 @@ def mean_outputs(start: Trim) -> dict[str, Any]:
 
 
 def first_harmonics(start: Trim) -> tuple[float, float, float]:
-    """lambda_0, lambda_1c, lambda_1s of the inflow map: area mean and fits of r cos psi, r sin psi over the stations."""
-    model, lam = start.model, start.inflow_map
-    psi = 2 * np.pi * np.arange(lam.shape[0]) / lam.shape[0]
-    r = model.stations / model.rotor["radius"]
-    w = r * np.asarray(model.rotor["widths"])
-    values = []
-    for shape in (np.cos(psi), np.sin(psi)):
-        basis = np.outer(shape, r)
-        values.append(float(np.sum(lam * basis * w) / np.sum(basis**2 * w)))
-    return model.disk_mean(lam), values[0], values[1]
+    """lambda_0, lambda_1c, lambda_1s of the inflow map: see `disk.first_harmonics`."""
+    return start.model.first_harmonics(start.inflow_map)
 
 
 def to_dataset(start: Trim) -> xr.Dataset:
@@ -127,6 +120,7 @@ def to_dataset(start: Trim) -> xr.Dataset:
         "inflow_model": start.inflow.name,
         "radius": model.rotor["radius"],
         "omega": model.omega,
+        "blade_modes": mode_labels(start.aircraft),
         "yaw": start.yaw,
         "configuration": {
             "aircraft": start.aircraft.name,

@@ -55,7 +55,9 @@ class Reached:
     told: str
 
 
-def solve_condition(model: Model, n_harmonics: int = 8, work: Work | None = None) -> tuple[_core.TrimProblem, np.ndarray]:
+def solve_condition(
+    model: Model, n_harmonics: int = 8, work: Work | None = None
+) -> tuple[_core.TrimProblem, np.ndarray]:
     """Trim of the model's condition with dynamic inflow: its equations and unknowns."""
     work = work or Work(BUDGET)
     problem = trim_problem(model, None, n_harmonics)
@@ -145,7 +147,9 @@ def to_bank(model: Model, n_harmonics: int, work: Work) -> Path:
     if c.bank_share < 1.0:
         return Path(
             lambda s: c.changed(bank_share=s * c.bank_share),
-            lambda now, x: f"the share of the bank in the convention ends at {now.bank_share:.2f} of {c.bank_share:.2f}",
+            lambda now, x: (
+                f"the share of the bank in the convention ends at {now.bank_share:.2f} of {c.bank_share:.2f}"
+            ),
         )
     return Path(
         lambda s: c.changed(bank=found + s * (asked - found)),

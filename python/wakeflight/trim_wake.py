@@ -16,6 +16,7 @@ from .wake_trim import WakeInTrim, marching_map
 CONTROL_TOLERANCE = 1e-3  # rad, change of a pitch control between trims on a free wake
 MAX_OUTER = 30  # the last passes halve the change of the controls
 
+
 def on_relaxation(
     model: Model,
     wake: WakeInTrim,

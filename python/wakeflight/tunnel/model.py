@@ -14,7 +14,7 @@ from ..aircraft import Rotor
 from ..errors import InputError
 from ..inflow import MODELS, AnnularInflow, DynamicInflow, InflowModel, TimeMarchingWake, inflow_model
 from ..model import CompiledRotor
-from ..trim import resample
+from ..trim_equations import resample
 from ..units import STANDARD_GRAVITY
 from .condition import StandCondition
 
