@@ -93,8 +93,7 @@ class Tunnel:
         if not self.turns_kept:
             return self.azimuth, [self._periodic[name] for name in names]
         found = [self._passages(name) for name in names]
-        rows = found[0][0].ravel()
-        return self.azimuth[rows], [values.reshape(rows.size, -1) for _, values in found]
+        return self.azimuth[found[0][0].ravel()], [values.reshape(-1, values.shape[-1]) for _, values in found]
 
     def _by_azimuth(self, name: str) -> np.ndarray:
         """Mean of a quantity by azimuth (n, ...)."""
