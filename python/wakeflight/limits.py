@@ -52,9 +52,16 @@ def _stall(alpha: np.ndarray, cl: np.ndarray, sign: float) -> float:
     along = sign * np.interp(zero + sign * from_zero, alpha, cl)
     window = round(_WINDOW / _STEP)
     growth = along[window:] - along[:-window]
-    flat = growth < SHELF * np.maximum.accumulate(growth)
+    largest = np.maximum.accumulate(growth)
+    flat = growth < SHELF * largest
     shelf = np.flatnonzero(flat[:-window] & flat[window:])
-    return float(zero + sign * (from_zero[shelf[0]] if shelf.size else SEARCHED))
+    if not shelf.size:
+        return float(zero + sign * SEARCHED)
+    # within that window: where lift itself stops growing
+    begin = shelf[0]
+    least = SHELF * largest[begin] / window
+    step = begin + int(np.argmax(np.diff(along[begin : begin + window + 1]) < least))
+    return float(zero + sign * from_zero[step])
 
 
 def stalled(angles: StallAngles, alpha: np.ndarray, mach: np.ndarray, slow: float = 0.0) -> np.ndarray:
@@ -99,3 +106,14 @@ def in_vortex_ring(descent: float, in_plane: float, hover_inflow: float) -> bool
     hover, and moves in its plane slower than that velocity, which would carry the wake away. All three in one unit.
     """
     return 0.5 * hover_inflow < descent < 2.0 * hover_inflow and in_plane < hover_inflow
+
+
+def momentum_inflows(ct: float, mu: float, climb: float) -> list[float]:
+    """Positive answers of momentum theory, lambda = C_T/(2 sqrt(mu^2 + (lambda + climb)^2)), ascending; all over the tip speed.
+
+    One, but for a descent (climb negative) so fast and steep that a windmill has an answer too: then three.
+    """
+    # squared: lambda^2 (mu^2 + (lambda + climb)^2) = (C_T/2)^2
+    roots = np.roots([1.0, 2 * climb, mu**2 + climb**2, 0.0, -(0.25 * ct * ct)])
+    real = [root.real for root in roots if abs(root.imag) < 1e-6 * (1e-3 + abs(root.real)) and root.real > 0.0]
+    return sorted(float(root) for root in real)

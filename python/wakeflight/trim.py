@@ -19,6 +19,7 @@ from .model import Model
 from .monitors import Monitor, failures, warnings
 from .progress import Progress, Silent
 from .trim_equations import INCH, dynamic_map, residual_norms
+from .trim_limits import windmill
 from .trim_solve import solve_condition
 from .trim_wake import CONTROL_TOLERANCE, on_marching, on_relaxation
 from .wake_trim import WakeInTrim
@@ -192,6 +193,9 @@ def trim(
     problem, x = solve_condition(simple, n_harmonics)
     progress.advance(1, "dynamic inflow")
     if isinstance(chosen, DynamicInflow):
+        none = windmill(simple, problem, x)
+        if none is not None:
+            raise NumericalFailure(none)
         inflow_map, circulation = dynamic_map(simple, problem, x)
         return physical(Trim(simple, problem, x, inflow_map, circulation, None, time.perf_counter() - started))
 
@@ -199,8 +203,9 @@ def trim(
     inflow_map, _ = dynamic_map(simple, problem, x, model.steps_per_revolution)
     x = np.delete(x, slice(7, 10))
     wake = WakeInTrim(model, inflow_map, steadied=True)
-    found = on_relaxation(model, wake, x, inflow_map, n_harmonics, progress, control_tolerance)
-    if isinstance(chosen, TimeMarchingWake):
+    marching = isinstance(chosen, TimeMarchingWake)
+    found = on_relaxation(model, wake, x, inflow_map, n_harmonics, progress, control_tolerance, start_only=marching)
+    if marching:
         model = Model.build(aircraft, condition, chosen)
         found = on_marching(model, found, wake, n_harmonics, progress, control_tolerance)
     return physical(

@@ -6,19 +6,13 @@ from __future__ import annotations
 import numpy as np
 
 from . import _core
+from .limits import momentum_inflows
 from .model import Model
 from .trim_equations import INCH, PITCH, ROLL, YAW
 from .units import STANDARD_GRAVITY
 
 LIFT_SLOPE = 5.7  # 1/rad, of a section
 FORWARD_FLAPPING = np.radians(2.0)
-
-
-def momentum_inflow(ct: float, mu: float, climb: float) -> float:
-    """Largest root of lambda = C_T/(2 sqrt(mu^2 + (lambda + climb)^2)), all over the tip speed, climb positive."""
-    # squared: lambda^2 (mu^2 + (lambda + climb)^2) = (C_T/2)^2
-    roots = np.roots([1.0, 2 * climb, mu**2 + climb**2, 0.0, -(0.25 * ct * ct)])
-    return float(max(root.real for root in roots if abs(root.imag) < 1e-6 * (1.0 + abs(root.real)) and root.real > 0.0))
 
 
 def first_guess(model: Model, problem: _core.TrimProblem) -> np.ndarray:
@@ -37,7 +31,7 @@ def first_guess(model: Model, problem: _core.TrimProblem) -> np.ndarray:
     thrust = c.gross_mass * STANDARD_GRAVITY * np.hypot(1.0, lateral)
     ct = thrust / (model.density * np.pi * rotor["radius"] ** 2 * model.tip_speed**2)
     mu, climb = flat / model.tip_speed, c.speed * np.sin(c.flight_path) / model.tip_speed
-    lambda_0 = momentum_inflow(ct, mu, climb)
+    lambda_0 = momentum_inflows(ct, mu, climb)[-1]
     drag = 0.04 * (c.speed / 41.0) ** 2
     through = lambda_0 + climb + c.speed / model.tip_speed * drag
     pitch_75 = (2 * ct / (LIFT_SLOPE * model.aircraft.solidity) + 0.5 * through) / (1 / 3 + mu**2 / 2)
@@ -77,4 +71,4 @@ def tail_inflow(model: Model, power: float, to_the_right: float) -> float:
     force = max(power, 0.0) / model.omega / abs(tail["position"][0])
     ct = force / (model.density * np.pi * tail["radius"] ** 2 * tip_speed**2)
     forward = model.condition.speed * np.cos(model.condition.flight_path) / tip_speed
-    return momentum_inflow(max(ct, 1e-4), min(forward, 0.3), to_the_right / tip_speed)
+    return momentum_inflows(max(ct, 1e-4), min(forward, 0.3), to_the_right / tip_speed)[-1]

@@ -57,21 +57,29 @@ def on_relaxation(
     n_harmonics: int,
     progress: Progress | Silent,
     control_tolerance: float = CONTROL_TOLERANCE,
+    start_only: bool = False,
 ) -> OnWake:
-    """Trim and relaxation wake in turn until the pitch controls and the wake rest."""
+    """Trim and relaxation wake in turn until the pitch controls and the wake rest.
+
+    start_only: the start of a marching wake, which comes to rest by itself; passes until no more is gained are enough.
+    """
     history: list[dict[str, float]] = []
     before, mixing, best, since = None, 1.0, np.inf, 0
+    step = np.zeros(4)
     for outer in range(MAX_OUTER):
         controls = model.pitch_controls(x[:4])
         problem, x = solve_on_map(model, inflow_map, x, n_harmonics, before)
-        change = float(np.max(np.abs(model.pitch_controls(x[:4]) - controls)))
+        last, step = step, model.pitch_controls(x[:4]) - controls
+        change = float(np.max(np.abs(step)))
         if outer > 0 and change < mixing * control_tolerance and (wake.converged or wake.rests_in_the_mean):
             history[-1]["control_change"] = change
             notes = () if wake.converged else (circling(wake),)
             return OnWake(problem, x, inflow_map, wake.circulation, history, notes)
-        if outer > 2 and change > 0.9 * history[-1]["control_change"]:
-            # controls that swing: half of each change of the inflow
+        if outer > 2 and step @ last < -0.5 * (last @ last):
+            # controls that swing back and forth: half of each change of the inflow
             mixing = max(0.5 * mixing, 0.25)
+        if change > 2.0 * control_tolerance:
+            wake.forget_means()
         try:
             wake.converge(problem, x)
         except ArithmeticError as reason:
@@ -79,10 +87,13 @@ def on_relaxation(
         before, inflow_map = inflow_map, inflow_map + mixing * (wake.inflow_map - inflow_map)
         history.append({**wake.last, "control_change": change})
         progress.advance(1, f"inflow change {wake.last['inflow_change']:.1e}, controls {change:.1e} rad")
-        missing = max(change / control_tolerance, wake.missing())
+        # the first trim is on the inflow it was started with: its rest says nothing
+        missing = max(change / control_tolerance, wake.missing()) if outer > 0 else np.inf
         best, since = (missing, 0) if missing < 0.9 * best else (best, since + 1)
         if since >= HOPELESS or wake.counters["relaxation_iterations"] > MAX_SWEEPS:
             break
+    if start_only:
+        return OnWake(problem, x, inflow_map, wake.circulation, history)
     unrest = wake.unrest()
     if change >= mixing * control_tolerance:
         unrest.append(f"pitch controls move by {change:.1e} rad between trims (allowed {mixing * control_tolerance:g})")
@@ -143,7 +154,7 @@ def on_marching(
         steady_mean = change < control_tolerance and moved < MEAN_TOLERANCE and wander < UNSTEADY
         if periodic or (not direct and steady_mean):
             wake.counters["wake_segment_evaluations"] += march.segment_evaluations
-            notes = () if periodic else (varying(wander, len(recent)),)
+            notes = () if periodic or wander < MEAN_TOLERANCE else (varying(wander, len(recent)),)
             return OnWake(problem, x, inflow_map, circulation, start.history, notes)
     limits = limiting(model, problem, x, held)
     raise NumericalFailure(

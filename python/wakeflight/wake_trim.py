@@ -30,8 +30,12 @@ LEAST_RELAXATION = 0.25
 """Least share of the relaxation asked for that is taken."""
 SETTLING = 5
 """Iterations of a pass that are not part of its mean."""
-WANDER = 5.0
-"""Largest motion of the inflow about its mean, over what a change of it may be, with which a wake rests in the mean."""
+PASSES_OF_MEAN = 4
+"""Passes whose means are averaged at most."""
+MEAN_MOVES = 3.0
+"""Change of the mean inflow between passes, over what a change of inflow may be, with which a wake rests in the mean."""
+WANDER = 10.0
+"""Largest motion of the inflow about its mean, over the same, with which it does."""
 
 
 class WakeInTrim:
@@ -42,8 +46,8 @@ class WakeInTrim:
         self.steadied = steadied
         # share of the relaxation asked for; the tolerances of what a sweep changes shrink with it
         self.step_share = 1.0
-        # a wake that circles: mean far inflow of the last pass, its change since the pass before, the motion about it
-        self.mean_far: np.ndarray | None = None
+        # a wake that circles: mean far inflow of each of the last passes, its change by the last, the motion about it
+        self.pass_means: list[np.ndarray] = []
         self.mean_change = self.wander = np.inf
         self.n = model.steps_per_revolution
         self.psi = 2 * np.pi * np.arange(self.n) / self.n
@@ -137,21 +141,26 @@ class WakeInTrim:
     ) -> None:
         """Hold the mean of the far inflows that a pass went through, with the circulation that belongs to it."""
         mean = np.mean(passed, axis=0)
+        before = np.mean(self.pass_means, axis=0) if self.pass_means else None
+        self.pass_means = [*self.pass_means, mean][-PASSES_OF_MEAN:]
 
         def rms(change: np.ndarray) -> float:
             return float(np.sqrt(np.mean((change**2) @ self.model.area_weights)))
 
         self.wander = max(rms(each - mean) for each in passed)
-        if self.mean_far is not None:
-            self.mean_change = rms(mean - self.mean_far)
-        self.mean_far = self.lambda_far = mean
+        self.lambda_far = np.mean(self.pass_means, axis=0)
+        if before is not None:
+            self.mean_change = rms(self.lambda_far - before)
         self._solve_circulation(y, stick, q, q_dot)
 
     @property
     def rests_in_the_mean(self) -> bool:
         """Whether the wake circles closely about an inflow that no longer moves."""
-        allowed = self.model.inflow.inflow_tolerance
-        return self.mean_change < allowed and self.wander < WANDER * allowed
+        return max(self.mean_change / MEAN_MOVES, self.wander / WANDER) < self.model.inflow.inflow_tolerance
+
+    def forget_means(self) -> None:
+        """The motion has changed: means of passes before tell nothing of the inflow to come."""
+        self.pass_means = []
 
     def excess(self) -> dict[str, float]:
         """What the last iteration changed over what is allowed, below one where it has settled.
@@ -164,7 +173,7 @@ class WakeInTrim:
     def missing(self) -> float:
         """How far the wake is from rest, in multiples of what is allowed: by itself, or in the mean where it circles."""
         allowed = self.model.inflow.inflow_tolerance
-        return min(max(self.excess().values()), max(self.mean_change, self.wander / WANDER) / allowed)
+        return min(max(self.excess().values()), max(self.mean_change / MEAN_MOVES, self.wander / WANDER) / allowed)
 
     def unrest(self) -> list[str]:
         """What has not settled, with figures."""
@@ -179,7 +188,7 @@ class WakeInTrim:
             tolerance = self.model.inflow.inflow_tolerance
             texts.append(
                 f"the wake circles: inflow within {self.wander:.1e} of its mean (allowed {WANDER * tolerance:.1e}), which "
-                f"moves by {self.mean_change:.1e} between passes (allowed {tolerance:.1e})"
+                f"moves by {self.mean_change:.1e} between passes (allowed {MEAN_MOVES * tolerance:.1e})"
             )
         return texts
 
