@@ -15,6 +15,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from importlib import resources
+from numbers import Real
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -66,14 +67,21 @@ class Maneuver:
         if (self.revolutions is None) == (self.seconds is None):
             raise InputError.of("duration", self.name, "must be given either in revolutions or in seconds")
         length = self.revolutions if self.revolutions is not None else self.seconds
-        if length is not None and not (math.isfinite(length) and 0.0 < length <= 10000.0):
+        if not 0.0 < _real("duration", length) <= 10000.0:
             raise InputError.of("duration", length, "must lie above 0 and at most 10000")
-        for name, value, unit in (("travel", self.travel_in, "in"), ("rotor_speed", self.rotor_speed, "rad/s")):
-            if value is not None and not (math.isfinite(value) and value > 0.0):
-                raise InputError.of(name, value, f"must be above 0 {unit}")
+        for name, value, unit, low, high in (
+            ("travel", self.travel_in, "in", 0.1, 100.0),
+            ("rotor_speed", self.rotor_speed, "rad/s", 0.1, 1000.0),
+        ):
+            if value is not None and not low <= _real(name, value) <= high:
+                raise InputError.of(name, value, f"must lie between {low:g} and {high:g} {unit}")
         if self.rotor_speed is not None and self.seconds is not None:
             allowed = "belongs to a duration in revolutions; one in seconds does not use it"
             raise InputError.of("rotor_speed", self.rotor_speed, allowed)
+        if not isinstance(self.corners_of, tuple | list):
+            raise InputError.of(
+                "corners_of", self.corners_of, "must hold a pair (stick, corners) for each stick that moves"
+            )
         for given in self.corners_of:
             _check_history(given)
         sticks = [stick for stick, _ in self.corners_of]
@@ -356,6 +364,19 @@ def _known(sources: list[str]) -> tuple[str, ...]:
     return tuple(sources)
 
 
+def _real(name: str, value: Any) -> float:
+    """`value` as a float; InputError where it is no finite number."""
+    if isinstance(value, bool) or not isinstance(value, Real):
+        raise InputError.of(name, value, "must be a number")
+    try:
+        number = float(value)
+    except OverflowError:
+        number = math.inf
+    if not math.isfinite(number):
+        raise InputError.of(name, value, "must be finite")
+    return number
+
+
 def _check_history(given: Any) -> None:
     """Refuse what is no stick with its corners, times ascending from 0 s, inches from 0."""
     if not isinstance(given, tuple | list) or len(given) != 2:
@@ -364,14 +385,12 @@ def _check_history(given: Any) -> None:
     if stick not in STICKS:
         raise InputError.of("controls", stick, f"allowed: {', '.join(STICKS)}")
     for corner in corners if isinstance(corners, tuple | list) else [corners]:
-        pair = isinstance(corner, tuple | list) and len(corner) == 2
-        if not pair or not all(isinstance(each, int | float) and not isinstance(each, bool) for each in corner):
+        if not isinstance(corner, tuple | list) or len(corner) != 2:
             raise InputError.of(stick, corner, "must hold pairs of numbers (time s, inches from trim)")
+        for each in corner:
+            _real(stick, each)
     if len(corners) < 2:
         raise InputError.of(stick, list(corners), "must have at least two corner points [time s, inches from trim]")
-    for time, inches in corners:
-        if not (math.isfinite(time) and math.isfinite(inches)):
-            raise InputError.of(stick, [time, inches], "must be finite")
     if corners[0][0] < 0.0:
         raise InputError.of(stick, f"{corners[0][0]:g} s", "must start at 0 s or later")
     if corners[0][1] != 0.0:

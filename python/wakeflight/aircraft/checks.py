@@ -63,7 +63,7 @@ def check_aircraft(spec: AircraftFile, parts: dict[str, Any], path: Path) -> lis
         if parts[name] is not None:
             warnings += _surface(name, getattr(spec, name).aerodynamics, parts[name])
     if parts["fuselage"] is not None:
-        _fuselage(spec, parts["fuselage"])
+        warnings += _fuselage(spec, parts["fuselage"])
     if spec.tail_rotor is not None:
         warnings += _tail_rotor(spec, refuse)
     _interference(spec, parts["interference"])
@@ -158,7 +158,7 @@ def _surface(name: str, table: Any, surface: dict[str, Any]) -> list[str]:
     return []
 
 
-def _fuselage(spec: AircraftFile, loads: dict[str, Any]) -> None:
+def _fuselage(spec: AircraftFile, loads: dict[str, Any]) -> list[str]:
     """Drag that brakes at every angle (a body takes energy from no steady stream); loads within those of the whole disk."""
     table = spec.fuselage.aerodynamics
     names = {"drag": "Dq", "lift": "Lq", "side": "Yq", "pitching": "Mq", "rolling": "Rq", "yawing": "Nq"}
@@ -175,6 +175,24 @@ def _fuselage(spec: AircraftFile, loads: dict[str, Any]) -> None:
                     raise table.error(column, given, "drag must not be negative: it would drive the aircraft")
                 if not abs(value) <= largest:
                     raise table.error(column, given, f"must lie within the rotor's {what}, {largest:.4g} {unit}")
+    warnings = []
+    # a body blown at from below is lifted, from one side pushed to the other: over 10 deg either way of straight ahead
+    small = math.radians(10.0)
+    lift = [_in_grid(loads["lift"], angle, 0.0) for angle in (-small, small)]
+    if lift[1] < lift[0]:
+        warnings.append(
+            f"fuselage: lift falls from {lift[0]:.3g} to {lift[1]:.3g} m2 between -10 and 10 deg of incidence"
+        )
+    push = [
+        _in_grid(loads["side"], 0.0, angle) * math.cos(angle) - _in_grid(loads["drag"], 0.0, angle) * math.sin(angle)
+        for angle in (-small, small)
+    ]
+    if push[1] > push[0]:
+        warnings.append(
+            f"fuselage: side force grows from {push[0]:.3g} to {push[1]:.3g} m2 between -10 and 10 deg of sideslip: "
+            "it pulls into the wind"
+        )
+    return warnings
 
 
 def _tail_rotor(spec: AircraftFile, refuse: Any) -> list[str]:
@@ -257,6 +275,12 @@ def _unused(spec: AircraftFile) -> list[str]:
     if spec.tail_rotor is not None and spec.tail_rotor.coning is None and spec.tail_rotor.tan_delta3 is not None:
         given.append("tail_rotor.tan_delta3: not used without tail_rotor.coning")
     return given
+
+
+def _in_grid(grid: dict[str, Any], alpha: float, beta: float) -> float:
+    """Bilinear value at (alpha, beta) [rad], held beyond the edges."""
+    column = [_interpolated(grid["y"], row, beta) for row in grid["values"]]
+    return _interpolated(grid["x"], column, alpha)
 
 
 def _interpolated(x: Sequence[float], y: Sequence[float], at: float) -> float:

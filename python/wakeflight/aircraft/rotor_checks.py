@@ -12,6 +12,9 @@ from .sections import Grid, Refuse, tip_mach_warnings
 SPEED_OF_SOUND = 340.294
 """Speed of sound [m/s] of the standard atmosphere at sea level, for what a file alone can say of Mach numbers."""
 
+SLOWEST_TIP = 0.1
+"""Least tip speed [m/s] of a rotor that is flown or tested."""
+
 STEEPEST_TWIST = 0.5 * math.pi
 """Largest built-in twist [rad] either way: beyond it the trailing edge leads."""
 
@@ -28,6 +31,8 @@ def check_rotor(
     if not tip_mach < 1.0:
         given = f"{omega:g} rad/s"
         raise refuse("omega", given, f"the tip would move at Mach {tip_mach:.2f} in sea-level air; must stay below 1")
+    if not omega * radius >= SLOWEST_TIP:
+        raise refuse("omega", f"{omega:g} rad/s", f"the tip must move at {SLOWEST_TIP:g} m/s or more")
     warnings = _geometry(group, blade, n_blades, radius)
     warnings += _structure(group, blade, omega, damper)
     if n_blades == 1:
