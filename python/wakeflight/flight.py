@@ -200,7 +200,7 @@ def fly(
     sticks = Sticks(maneuver, start.stick_si)
     for text in maneuver.adapted:
         progress(f"note: {text}")
-    warnings += [*start.aircraft.warnings, *(f"trim: {text}" for text in monitored(start.monitors))]
+    warnings += [*start.aircraft.warnings, *(f"trim: {text}" for text in (*start.notes, *monitored(start.monitors)))]
     for text in warnings:
         progress(f"warning: {text}")
 

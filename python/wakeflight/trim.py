@@ -129,7 +129,7 @@ class Trim:
     @property
     def warnings(self) -> tuple[str, ...]:
         """What is doubtful in the aircraft's data, and what lies beyond a limit of aircraft or model."""
-        return (*self.aircraft.warnings, *warnings(self.monitors))
+        return (*self.aircraft.warnings, *self.notes, *warnings(self.monitors))
 
     @property
     def failures(self) -> tuple[str, ...]:
