@@ -165,7 +165,7 @@ def test_an_unknown_name_lists_the_known_ones():
             "rotor_speed",
         ),
         ({"corners_of": (("pedal", ((0.0, 0.0), (1.0, 0.2))),), "seconds": 2, "travel_in": "1"}, "travel"),
-        ({"corners_of": {"pedal": ((0.0, 0.0), (1.0, 0.2))}, "seconds": 2.0}, "pair (stick, corners)"),
+        ({"corners_of": {"pedal": (0.0, 1.0)}, "seconds": 2.0}, "pairs of numbers"),
         ({"corners_of": (("pedal", ((0.0, 0.0), (1.0, 0.2))),), "seconds": 2.0, "rotor_speed": 27.0}, "rotor_speed"),
     ],
 )
