@@ -22,7 +22,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from wakeflight.trim import Trim, trim_problem
+from wakeflight.trim import Trim
+from wakeflight.trim_equations import trim_problem
 
 STATES = ("u", "w", "q", "theta", "v", "p", "phi", "r")
 CONTROLS = ("theta_0", "theta_1s", "theta_1c", "theta_tr")

@@ -203,3 +203,11 @@ def test_a_deck_is_held_beyond_its_mach_numbers(tmp_path):
     ]
     assert thrusts[1:] == pytest.approx(thrusts[:1] * 2, rel=1e-12)
     assert thrusts[0] > 100.0
+
+
+def test_a_file_that_cannot_be_one_is_refused_in_a_short_line(tmp_path):
+    refused(rotor(tmp_path, DECK.replace("deck", "a" * 5000)), "rotor.airfoil.c81", "5004 characters")
+    refused(rotor(tmp_path, DECK.replace("deck.c81", "/dev/zero")), "/dev/zero", "no such file")
+    with (tmp_path / "deck.c81").open("wb") as stream:
+        stream.truncate(1 << 30)
+    refused(rotor(tmp_path, DECK), "deck.c81", "larger than 32 MiB")

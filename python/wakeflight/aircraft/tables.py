@@ -12,7 +12,7 @@ from typing import Annotated, Any
 from pydantic import BeforeValidator, ValidationInfo
 
 from ..errors import InputError
-from ..text import read_text
+from ..text import file_beside, read_text
 from ..units import convert
 from .number import Provenance, provenance_of
 
@@ -223,7 +223,7 @@ def _validate(entry: Any, info: ValidationInfo) -> TableFile:
         raise ValueError(f"must be {allowed}")
     directory = (info.context or {}).get("directory", Path())
     published = Provenance(name, "table", provenance.sources, provenance.confidence, provenance.note)
-    return read_csv(Path(directory) / name, published)
+    return read_csv(file_beside(Path(directory), name), published)
 
 
 Table = Annotated[TableFile, BeforeValidator(_validate)]
