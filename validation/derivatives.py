@@ -95,16 +95,21 @@ def _harmonics(trim: Trim) -> int:
     return (modes[1] - modes[0] - 1) // 2
 
 
-def linear_model(trim: Trim, step: float = 1.0, inertia: np.ndarray | None = None) -> LinearModel:
+def linear_model(
+    trim: Trim, step: float = 1.0, inertia: np.ndarray | None = None, hold_harmonics: bool = False
+) -> LinearModel:
     """Derivatives about a wings-level `trim` with dynamic inflow.
 
     step: scales the differences in the body's states. inertia: matrix (3, 3) [kg m2] instead of the model's own.
+    hold_harmonics: the inflow's harmonics stay as trimmed, its mean alone follows.
     """
     core, x = trim.model.core, trim.x
     jacobian = np.asarray(core.trim_jacobian(trim.problem, x)).reshape(x.size, x.size)
-    body, rotor, controls = slice(0, 6), slice(7, x.size), slice(0, 4)
+    body, controls = np.arange(6), np.arange(4)
+    _, inflow, _ = core.trim_layout(trim.problem)
+    rotor = np.setdiff1d(np.arange(7, x.size), (inflow + 1, inflow + 2) if hold_harmonics else ())
     # how the balances answer what the equations of rotor and inflow lack
-    passed_on = -np.linalg.solve(jacobian[rotor, rotor].T, jacobian[body, rotor].T).T
+    passed_on = -np.linalg.solve(jacobian[np.ix_(rotor, rotor)].T, jacobian[np.ix_(body, rotor)].T).T
 
     def accelerations(residual: np.ndarray) -> np.ndarray:
         return residual[body] + passed_on @ residual[rotor]
@@ -114,7 +119,7 @@ def linear_model(trim: Trim, step: float = 1.0, inertia: np.ndarray | None = Non
     a = np.zeros((6, 8))
     for i, name in enumerate(STATES):
         a[:, i] = columns[name]
-    sticks = jacobian[body, controls] + passed_on @ jacobian[rotor, controls]
+    sticks = jacobian[np.ix_(body, controls)] + passed_on @ jacobian[np.ix_(rotor, controls)]
     # theta_1c, theta_1s, theta_0, theta_tr by the sticks, into the order of CONTROLS
     b = (sticks @ np.linalg.inv(np.asarray(trim.model.data["rigging"]["matrix"])))[:, [2, 1, 0, 3]]
     return _assembled(trim, a, b, model_inertia(trim) if inertia is None else inertia)

@@ -57,7 +57,8 @@ def others(aircraft, inflow, coarse=False):
     for speed in TURNING[1:2] if coarse else TURNING:
         for bank in (-60, -30, 30, 60) if coarse else (-60, -45, -30, 30, 45, 60):
             rate = np.degrees(9.80665 * np.tan(np.radians(bank)) / (speed * KNOT))
-            add("turn", f"{speed} kt", turn_rate=f"{rate:.9g} deg/s", bank=f"{bank} deg")
+            # bank and heading are found: with no sideslip a bank of its own would ask for too much
+            add("turn", f"{speed} kt", turn_rate=f"{rate:.9g} deg/s")
     return conditions
 
 
@@ -126,7 +127,7 @@ STICKS = ("lateral", "longitudinal", "collective", "pedal")
 
 
 def random_maneuver(seed, stick, travel, seconds=3.0, amplitude=1.0):
-    """Random stick motion about trim within `amplitude` [in] and the travel: corners a quarter to three quarters of a second apart."""
+    """Random stick motion about trim within `amplitude` [in] and the travel, corners 0.25 to 0.75 s apart."""
     random = np.random.default_rng(seed)
     controls = []
     for name, full in zip(STICKS, travel):

@@ -49,7 +49,6 @@ class OnWake:
     notes: tuple[str, ...] = ()
 
 
-
 def on_relaxation(
     model: Model,
     wake: WakeInTrim,

@@ -62,7 +62,7 @@ def name_of(f):
     if "seed" in f:
         return f"{f['speed']} kt, seed {f['seed']}"
     words = [f["aircraft"], f["inflow"], f["kind"], f["speed"], f["weight"]]
-    words += [f"{name} {f[name]}" for name in ("flight_path", "bank") if f.get(name, "0 deg") != "0 deg"]
+    words += [f"{name} {f[name]}" for name in ("flight_path", "turn_rate") if f.get(name, "0 deg") != "0 deg"]
     return " ".join(words)
 
 
