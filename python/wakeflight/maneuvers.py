@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from importlib import resources
@@ -36,6 +36,9 @@ SHIPPED = ("arrested-descent", "roll-reversal")
 ROUNDING = 1e-9
 """Times [s] nearer than this are one: corners at the edge of a coupling step are met there."""
 
+SHORTEST_PIECE = 1e-6
+"""Least time [s] between two corners: less than a recorder has, and rates of stick stay numbers."""
+
 Corner = tuple[float, float]
 _Real = Annotated[float, Field(strict=True)]
 _Points = list[tuple[_Real, _Real]] | None
@@ -45,7 +48,8 @@ _Points = list[tuple[_Real, _Real]] | None
 class Maneuver:
     """A stick history about trim.
 
-    corners_of: for each stick that moves, its corner points (time [s], inches from trim), times ascending.
+    corners_of: for each stick that moves, its corner points (time [s], inches from trim), times ascending; given as a mapping
+    by the stick's name or as pairs.
     revolutions, seconds: duration, one of the two given. travel_in: travel the inches belong to [in], rotor_speed: rotor
     speed the revolutions belong to [rad/s]; None: they are those of whatever aircraft flies. shipped: whether it comes with
     the package and is flown as published, even beyond the stops. adapted: what `for_aircraft` changed, a sentence each.
@@ -78,12 +82,16 @@ class Maneuver:
         if self.rotor_speed is not None and self.seconds is not None:
             allowed = "belongs to a duration in revolutions; one in seconds does not use it"
             raise InputError.of("rotor_speed", self.rotor_speed, allowed)
+        if isinstance(self.corners_of, Mapping):
+            object.__setattr__(self, "corners_of", tuple(self.corners_of.items()))
         if not isinstance(self.corners_of, tuple | list):
             raise InputError.of(
-                "corners_of", self.corners_of, "must hold a pair (stick, corners) for each stick that moves"
+                "corners_of", self.corners_of, "must hold the corners of each stick that moves, by its name"
             )
         for given in self.corners_of:
             _check_history(given)
+        own = tuple((stick, tuple((float(t), float(x)) for t, x in corners)) for stick, corners in self.corners_of)
+        object.__setattr__(self, "corners_of", own)
         sticks = [stick for stick, _ in self.corners_of]
         for stick in sticks:
             if sticks.count(stick) > 1:
@@ -398,6 +406,9 @@ def _check_history(given: Any) -> None:
     for (before, _), (after, _) in itertools.pairwise(corners):
         if not after > before:
             raise InputError.of(stick, f"{before:g} s, {after:g} s", "times must ascend strictly")
+        if after - before < SHORTEST_PIECE:
+            allowed = f"corners must be {SHORTEST_PIECE:g} s apart or more: a hand does not jump"
+            raise InputError.of(stick, f"{before:.9g} s, {after:.9g} s", allowed)
 
 
 def _slopes(corners: Sequence[Corner]) -> list[float]:

@@ -65,8 +65,9 @@ def _replaced(history: Sequence[Corner], stops: Sequence[np.ndarray]) -> tuple[C
 def nearest(times: np.ndarray, inches: np.ndarray, stops: np.ndarray) -> np.ndarray:
     """Values at `stops` of the piecewise-linear function nearest in the mean square to the one through (times, inches).
 
-    Its ends are those of the history. With the hat functions h_i of the inner stops, int (f - s) h_i dt = 0 for each: a
-    tridiagonal system, exact, since s, f and h_i are linear between any two of all times.
+    Its ends are those of the history, and it goes no further than the history does between them. Within that range, with
+    the hat functions h_i of the inner stops, int (f - s) h_i dt = 0 for each: a tridiagonal system, exact, since s, f and
+    h_i are linear between any two of all times.
     """
     values = np.interp(stops, times, inches)
     n = len(stops) - 2
@@ -85,8 +86,9 @@ def nearest(times: np.ndarray, inches: np.ndarray, stops: np.ndarray) -> np.ndar
     inner = load[1:-1].copy()
     inner[0] -= width[0] / 6.0 * values[0]
     inner[-1] -= width[-1] / 6.0 * values[-1]
-    bands = np.zeros((2, n))
-    bands[1] = (width[:-1] + width[1:]) / 3.0
-    bands[0, 1:] = width[1:-1] / 6.0
-    values[1:-1] = solveh_banded(bands, inner)
-    return values
+    diagonal = (width[:-1] + width[1:]) / 3.0
+    # one stop between the ends of a single step: an equation, no band beside it
+    beside = np.concatenate([[0.0], width[1:-1] / 6.0])
+    values[1:-1] = inner / diagonal if n == 1 else solveh_banded(np.array([beside, diagonal]), inner)
+    # a least-squares fit overshoots beside a jump: not beyond where the stick itself goes, such as its stop
+    return np.clip(values, s.min(), s.max())

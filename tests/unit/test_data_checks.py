@@ -193,6 +193,6 @@ def test_keys_that_speak_to_a_part_that_is_off_are_told(tmp_path):
 
 def test_the_limit_of_power_is_what_the_file_states():
     assert load_aircraft("uh60a").limits.power == pytest.approx(2828 * 745.6999, rel=1e-6)
-    assert load_aircraft("bo105").limits.power is None
+    assert load_aircraft("bo105").limits.power == pytest.approx(515e3)
     rows = {row.key: row for row in load_aircraft("uh60a").sources()}
-    assert (rows["limits.power"].value, rows["limits.power"].confidence) == (2828, "A")
+    assert (rows["limits.power"].value, rows["limits.power"].confidence) == (2828, "A/B")

@@ -165,7 +165,7 @@ def test_an_unknown_name_lists_the_known_ones():
             "rotor_speed",
         ),
         ({"corners_of": (("pedal", ((0.0, 0.0), (1.0, 0.2))),), "seconds": 2, "travel_in": "1"}, "travel"),
-        ({"corners_of": {"pedal": ((0.0, 0.0), (1.0, 0.2))}, "seconds": 2.0}, "pair (stick, corners)"),
+        ({"corners_of": {"pedal": (0.0, 1.0)}, "seconds": 2.0}, "pairs of numbers"),
         ({"corners_of": (("pedal", ((0.0, 0.0), (1.0, 0.2))),), "seconds": 2.0, "rotor_speed": 27.0}, "rotor_speed"),
     ],
 )
@@ -202,3 +202,18 @@ def test_a_manoeuvre_file_may_begin_with_a_byte_order_mark(tmp_path):
     path.write_bytes(GOOD.replace('"x"', '"\u00fc"').encode("latin-1"))
     with pytest.raises(InputError, match="UTF-8"):
         load_maneuver(path)
+
+
+def test_sticks_may_be_given_by_name():
+    by_name = Maneuver("step", {"lateral": [(0.1, 0.0), (0.3, 1)]}, seconds=3.0)
+    assert by_name == Maneuver("step", (("lateral", ((0.1, 0.0), (0.3, 1.0))),), seconds=3.0)
+    assert hash(by_name) == hash(by_name.for_aircraft(TRAVEL, OMEGA))
+    with pytest.raises(InputError, match="throttle"):
+        Maneuver("step", {"throttle": [(0.1, 0.0), (0.3, 1.0)]}, seconds=3.0)
+
+
+def test_a_stick_does_not_jump():
+    # times that ascend by less than a recorder resolves are a jump, whose rate is no number
+    for gap in (1e-9, 5e-324):
+        with pytest.raises(InputError, match="jump"):
+            Maneuver("jump", {"pedal": [(0.0, 0.0), (gap, 1.0)]}, seconds=1.0)

@@ -54,6 +54,34 @@ def test_stops_of_a_dense_history_are_bounded_and_said():
     assert means[1] == pytest.approx(means[0], abs=2e-4)
 
 
+def test_a_single_dense_step_is_flown_by_its_own_pieces():
+    # three corners within one step of 6.5 ms, none beside it: one stop between the step's two ends
+    corners = ((0.0971, 0.0), (0.0985, 0.1), (0.1, -0.05), (0.1015, 0.0))
+    maneuver = wf.Maneuver("tremor", (("lateral", corners),), seconds=1.0)
+    thin = thinned(maneuver, STEP, 100)
+    (_, flown), *_ = thin.corners_of
+    inside = [t for t, _ in flown if 15 * STEP < t < 16 * STEP]
+    assert inside == pytest.approx([15.5 * STEP])
+    fine = np.linspace(15 * STEP, 16 * STEP, 20001)
+    hat = 1.0 - np.abs(fine - 15.5 * STEP) / (0.5 * STEP)
+    differs = [thin.offset(t)[0] - maneuver.offset(t)[0] for t in fine]
+    assert abs(np.trapezoid(differs * hat, fine)) < 1e-8
+
+
+def test_the_pieces_go_no_further_than_the_stick_did():
+    # up to the stop within a sample: the nearest pieces alone would overshoot by a tenth of the jump
+    times = np.arange(0.0, 1.0, 1e-3)
+    corners = tuple((float(t), 5.0 if t > 0.5 else 0.0) for t in times)
+    thin = thinned(wf.Maneuver("slam", (("lateral", corners),), seconds=1.0), STEP, 150)
+    noisy = tuple((t, x + (1e-3 * (-1) ** i if t > 0.0 and x == 0.0 else 0.0)) for i, (t, x) in enumerate(corners))
+    dense = thinned(wf.Maneuver("slam", (("lateral", noisy),), seconds=1.0), STEP, 150)
+    assert dense.adapted and thin is not dense
+    for flown in (thin, dense):
+        inches = [x for _, x in flown.corners_of[0][1]]
+        assert max(inches) <= 5.0
+        assert min(inches) >= -1e-3
+
+
 @pytest.fixture(scope="module")
 def trimmed():
     return wf.trim(wf.load_aircraft("uh60a").with_rigid_blades(), inflow="dynamic")

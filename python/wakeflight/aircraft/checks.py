@@ -10,8 +10,10 @@ from typing import Any
 
 from ..errors import InputError
 from ..units import STANDARD_GRAVITY, shown
+from .doubts import doubts_of_aircraft
 from .mass import airframe_inertia, blade_mass
 from .rotor_checks import SPEED_OF_SOUND, check_rotor
+from .rotor_doubts import in_grid, interpolated
 from .schema import AircraftFile, Loading
 from .sections import LARGEST_COEFFICIENT, PLAUSIBLE_SLOPES, check_sections, tip_mach_warnings
 
@@ -67,7 +69,7 @@ def check_aircraft(spec: AircraftFile, parts: dict[str, Any], path: Path) -> lis
     if spec.tail_rotor is not None:
         warnings += _tail_rotor(spec, refuse)
     _interference(spec, parts["interference"])
-    return warnings + _unused(spec)
+    return [*warnings, *doubts_of_aircraft(spec, parts), *_unused(spec)]
 
 
 def _masses(spec: AircraftFile, parts: dict[str, Any], refuse: Any) -> None:
@@ -149,7 +151,7 @@ def _surface(name: str, table: Any, surface: dict[str, Any]) -> list[str]:
                 raise table.error(f"{name} cd", given, "drag must not be negative: it would drive the aircraft")
     half = math.radians(8.0)
     curve = surface["cl"]
-    low, high = (_interpolated(curve["x"], curve["y"], angle) for angle in (-half, half))
+    low, high = (interpolated(curve["x"], curve["y"], angle) for angle in (-half, half))
     slope = (high - low) / (2.0 * half)
     if not slope > 0.0:
         raise table.error(f"{name} cl", f"{slope:.3g} per rad about 0 deg", "lift slope must be positive")
@@ -178,13 +180,13 @@ def _fuselage(spec: AircraftFile, loads: dict[str, Any]) -> list[str]:
     warnings = []
     # a body blown at from below is lifted, from one side pushed to the other: over 10 deg either way of straight ahead
     small = math.radians(10.0)
-    lift = [_in_grid(loads["lift"], angle, 0.0) for angle in (-small, small)]
+    lift = [in_grid(loads["lift"], angle, 0.0) for angle in (-small, small)]
     if lift[1] < lift[0]:
         warnings.append(
             f"fuselage: lift falls from {lift[0]:.3g} to {lift[1]:.3g} m2 between -10 and 10 deg of incidence"
         )
     push = [
-        _in_grid(loads["side"], 0.0, angle) * math.cos(angle) - _in_grid(loads["drag"], 0.0, angle) * math.sin(angle)
+        in_grid(loads["side"], 0.0, angle) * math.cos(angle) - in_grid(loads["drag"], 0.0, angle) * math.sin(angle)
         for angle in (-small, small)
     ]
     if push[1] > push[0]:
@@ -202,6 +204,10 @@ def _tail_rotor(spec: AircraftFile, refuse: Any) -> list[str]:
         raise refuse(
             "tail_rotor.radius", f"{tail.radius:g} m", f"must be below the main rotor's, {spec.rotor.radius:.4g} m"
         )
+    for factor, where in zip(tail.fin_blockage, ("at rest", "in flight"), strict=False):
+        if not 0.0 < factor <= 1.0:
+            allowed = "must lie above 0 and at most 1: the fin in its way takes thrust away"
+            raise refuse("tail_rotor.fin_blockage", f"{factor:g} {where}", allowed)
     tip_mach = tail.omega * tail.radius / SPEED_OF_SOUND
     if not tip_mach < 1.0:
         raise refuse("tail_rotor.omega", f"{tail.omega:g} rad/s", f"tip at Mach {tip_mach:.2f}; must stay below 1")
@@ -275,19 +281,3 @@ def _unused(spec: AircraftFile) -> list[str]:
     if spec.tail_rotor is not None and spec.tail_rotor.coning is None and spec.tail_rotor.tan_delta3 is not None:
         given.append("tail_rotor.tan_delta3: not used without tail_rotor.coning")
     return given
-
-
-def _in_grid(grid: dict[str, Any], alpha: float, beta: float) -> float:
-    """Bilinear value at (alpha, beta) [rad], held beyond the edges."""
-    column = [_interpolated(grid["y"], row, beta) for row in grid["values"]]
-    return _interpolated(grid["x"], column, alpha)
-
-
-def _interpolated(x: Sequence[float], y: Sequence[float], at: float) -> float:
-    """Piecewise linear, held beyond the ends."""
-    if at <= x[0]:
-        return y[0]
-    for i in range(len(x) - 1):
-        if at <= x[i + 1]:
-            return y[i] + (at - x[i]) / (x[i + 1] - x[i]) * (y[i + 1] - y[i])
-    return y[-1]

@@ -7,6 +7,7 @@ import math
 from typing import Any
 
 from .mass import blade_mass
+from .rotor_doubts import doubts_of_rotor
 from .sections import Grid, Refuse, tip_mach_warnings
 
 SPEED_OF_SOUND = 340.294
@@ -37,6 +38,7 @@ def check_rotor(
     warnings += _structure(group, blade, omega, damper)
     if n_blades == 1:
         warnings.append("rotor.n_blades = 1: a single blade, without the counterweight it needs")
+    warnings += doubts_of_rotor(group, blade, damper)
     return warnings + tip_mach_warnings(sections, tip_mach, "the tip at rest in sea-level air")
 
 

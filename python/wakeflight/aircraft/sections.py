@@ -24,6 +24,12 @@ LOW_MACH = 0.3
 SUBSONIC = 0.6
 """Mach number up to which the lift of every section of a blade grows with the angle of attack."""
 
+LEAST_DRAG = 0.0025
+"""Least cd about zero lift: a smooth plate, laminar on both sides, has 2.66 / sqrt(Re), 0.0027 at a million."""
+
+PLATE_DRAG = 1.0
+"""Drag coefficient across the stream that every section exceeds: a plate has 2, a short one between its ends 1.2."""
+
 GAP = 0.01
 """Difference of a coefficient between -180 and 180 deg, the same attitude, beyond the rounding of a printed table."""
 
@@ -146,6 +152,12 @@ def _doubtful(grids: dict[str, Grid], cd_increment: float) -> list[str]:
     attached = [row for alpha, row in zip(drag["x"], drag["values"], strict=True) if abs(alpha) <= math.radians(10.0)]
     if cd_increment == 0.0 and attached and not any(map(any, attached)):
         warnings.append("cd is zero within 10 deg: the blades have no profile drag")
+    elif attached and min(map(min, attached)) + cd_increment < LEAST_DRAG:
+        least = min(map(min, attached)) + cd_increment
+        warnings.append(f"cd down to {least:.3g} within 10 deg; a smooth plate has {LEAST_DRAG:g} or more")
+    across = min(_at(drag["x"], [row[0] for row in drag["values"]], angle) for angle in (-0.5 * math.pi, 0.5 * math.pi))
+    if across < PLATE_DRAG:
+        warnings.append(f"cd is {across:.3g} across the stream; a plate has 1.2 to 2")
     return warnings
 
 
