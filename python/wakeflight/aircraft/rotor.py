@@ -11,7 +11,7 @@ from types import SimpleNamespace
 from typing import Any
 
 from ..errors import InputError
-from ..units import quantity
+from ..units import STANDARD_GRAVITY, quantity
 from . import tables
 from .core_data import blade_data, structure_data
 from .core_data import lag_damper_data as damper
@@ -33,6 +33,8 @@ class Rotor:
     discretisation: Settings
     references: tuple[str, ...] = ()
     fixed_reference_pitch: bool = False
+    weight: float | None = None
+    """Weight [N] that the aircraft, or the `[condition]` of the rotor file, names; None where there is none."""
 
     @property
     def n_blades(self) -> int:
@@ -118,7 +120,8 @@ def _of_aircraft(aircraft: Aircraft) -> Rotor:
     data |= {"position": [0.0, 0.0, 0.0], "shaft_tilt_forward": 0.0, "shaft_tilt_lateral": 0.0}
     data["blade"].setdefault("rigid", False)
     settings = aircraft.discretisation
-    return Rotor(aircraft.name, aircraft.path, data, settings, aircraft.references, fixed_reference_pitch=True)
+    weight = aircraft.default("gross_mass") * STANDARD_GRAVITY
+    return Rotor(aircraft.name, aircraft.path, data, settings, aircraft.references, True, weight)
 
 
 def _of_file(path: Path) -> Rotor:
@@ -142,7 +145,8 @@ def _of_file(path: Path) -> Rotor:
     }
     keys = {key for source in spec.sources.values() for key in source.references}
     fixed = spec.discretisation.reference_pitch is not None
-    return Rotor(spec.name, path, core, _settings(spec, path), tuple(sorted(keys)), fixed)
+    weight = None if spec.condition is None or spec.condition.weight is None else float(spec.condition.weight)
+    return Rotor(spec.name, path, core, _settings(spec, path), tuple(sorted(keys)), fixed, weight)
 
 
 def _grids(group: RotorGroup, path: Path) -> dict[str, Any]:
