@@ -117,7 +117,7 @@ def flown(start, inflow, maneuver=None):
         "mach": float(data.mach.max()),
         "mach_of_motion": (tip + start.condition.speed) / start.model.speed_of_sound,
         "rate": float(abs(rates - rates[:, :1]).max()),
-        "attitude": float(np.degrees(max(abs(data.roll - data.roll[0]).max(), abs(data.pitch - data.pitch[0]).max()))),
+        "attitude": float(np.degrees(max(np.ptp(data["roll"].values), np.ptp(data["pitch"].values)))),
         "load_factor": (float(load_factor.min()), float(load_factor.max())),
         "inflow_change": float(abs(mean[-1] - mean[0])),
     }

@@ -105,6 +105,8 @@ def unused_on_a_stand(group: Any, condition: Any) -> list[str]:
         of_elastic = ["control_stiffness", "km1_over_ktheta", "ka_over_ktheta", "structural_damping_ratio"]
         given += [f"rotor.blade.{key}" for key in of_elastic if getattr(group.blade, key) is not None]
     if condition is not None:
-        given.append("condition")
+        # the weight is the thrust of a stand of which nothing is asked
+        unused = ("speed", "flight_path", "altitude")
+        given += [f"condition.{key}" for key in unused if getattr(condition, key) is not None]
     where = "on a stand" if group.blade.flexible else "on a stand with rigid blades"
     return [f"{', '.join(given)}: not used {where}"] if given else []

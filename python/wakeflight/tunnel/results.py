@@ -58,6 +58,11 @@ class Tunnel:
         """What must be said about this solution: what does not rest, and every warning."""
         return [*self.solution.notes, *self.warnings]
 
+    @property
+    def assumed(self) -> tuple[str, ...]:
+        """What was taken for granted because nothing in the request fixes it, in words."""
+        return self.model.condition.assumed
+
     @cached_property
     def monitors(self) -> tuple[Monitor, ...]:
         """What is watched of this stand, each with its values and what it says."""
@@ -434,6 +439,7 @@ class Tunnel:
             "revolutions": len(s.revolutions),
             "averaged": self.averaged,
             "settled": int(self.settled),
+            "assumed": "; ".join(self.assumed),
             "notes": "; ".join(self.notes),
             "warnings": "\n".join(self.warnings),
             "failure": "; ".join(self.failures),
@@ -468,6 +474,7 @@ class Tunnel:
                 "inflow, blade model",
                 f"{m.inflow.name}, {m.blade_model}",
             ),
+            *(("assumed", text) for text in self.assumed),
             ("theta_0, 1c, 1s", f"{deg(self.theta_0):.3f}, {deg(self.theta_1c):.3f}, {deg(self.theta_1s):.3f} deg"),
             ("C_T, C_T/sigma", f"{self.ct:.6f}, {self.ct / sigma:.4f}{scatter}"),
             ("C_Q, figure of merit", f"{self.cq:.7f}, {self.figure_of_merit:.4f}"),
