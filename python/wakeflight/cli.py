@@ -361,7 +361,9 @@ def tunnel(
     rotor: Annotated[
         str | None, typer.Option("--rotor", metavar="FILE", help="a rotor file, in place of --aircraft")
     ] = None,
-    collective: Annotated[str | None, typer.Option("--collective", help='"8 deg" unless a load is asked for')] = None,
+    collective: Annotated[
+        str | None, typer.Option("--collective", help='"8 deg"; else a load, else the weight')
+    ] = None,
     speed: Annotated[str, typer.Option("--speed", help='wind from the front, "80 kt"')] = "0 kt",
     shaft_angle: Annotated[
         str, typer.Option("--shaft-angle", help="tilt of the shaft, aft + (disk met from below)")

@@ -22,11 +22,12 @@ from .errors import InputError, NumericalFailure
 from .exchange import MarchingExchange, RelaxationExchange
 from .inflow import DynamicInflow, InflowModel, RelaxationWake, TimeMarchingWake, inflow_model, like, trim_model
 from .integrators import INTEGRATORS
-from .maneuvers import Maneuver
+from .maneuvers import ROUNDING, Maneuver
 from .model import Model, flight_regime
 from .monitors import warnings as monitored
 from .progress import Progress, Silent
 from .recorder import Recorder
+from .thinning import thinned
 from .trim import INCH, Trim
 
 if TYPE_CHECKING:
@@ -85,12 +86,12 @@ class Sticks:
 
     def rate(self, t: float) -> np.ndarray:
         """Rates (4,) [m/s] just after time `t` [s]."""
-        return INCH * self.maneuver.rate(t)
+        return INCH * self.maneuver.rate(t + ROUNDING)
 
     def pieces(self, t0: float, t1: float) -> list[tuple[float, float]]:
         """The interval t0..t1 cut at the corners of the history."""
-        first = bisect_right(self.corners, t0 + 1e-9)
-        ends = [t0, *self.corners[first : bisect_left(self.corners, t1 - 1e-9)], t1]
+        first = bisect_right(self.corners, t0 + ROUNDING)
+        ends = [t0, *self.corners[first : bisect_left(self.corners, t1 - ROUNDING)], t1]
         return list(zip(ends[:-1], ends[1:], strict=True))
 
 
@@ -191,12 +192,15 @@ def fly(
         raise InputError.of("stabilator", stabilator, "allowed: held, scheduled")
     travel = start.aircraft.stick_travel_in
     maneuver = maneuver.for_aircraft(travel, model.omega)
+    n_steps = flown_steps(model, maneuver, revolutions)
+    delta_t = 2 * np.pi / model.omega / model.steps_per_revolution
+    warnings = maneuver.check_travel(start.stick_si / INCH, travel, None, start.aircraft.stick_rate_limit_in)
+    warnings += maneuver.check_end(max(n_steps * delta_t, maneuver.duration(model.omega)))
+    maneuver = thinned(maneuver, delta_t, n_steps)
+    sticks = Sticks(maneuver, start.stick_si)
     for text in maneuver.adapted:
         progress(f"note: {text}")
-    n_steps = flown_steps(model, maneuver, revolutions)
-    sticks = Sticks(maneuver, start.stick_si)
-    warnings = maneuver.check_travel(sticks.trim_in, travel, None, start.aircraft.stick_rate_limit_in)
-    warnings += [*start.aircraft.warnings, *(f"trim: {text}" for text in monitored(start.monitors))]
+    warnings += [*start.aircraft.warnings, *(f"trim: {text}" for text in (*start.notes, *monitored(start.monitors)))]
     for text in warnings:
         progress(f"warning: {text}")
 
@@ -204,7 +208,6 @@ def fly(
     solver = INTEGRATORS[integrator](model, rtol, atol_scale=rtol / RTOL)
     recorder = Recorder(model, start, maneuver, source, n_steps)
     seconds = {"wake": 0.0, "dynamics": 0.0}
-    delta_t = 2 * np.pi / model.omega / model.steps_per_revolution
     progress.phase("flight", n_steps / model.steps_per_revolution)
     y, failure = start.state(0.0), None
     incidence = start.stabilator_incidence

@@ -161,8 +161,8 @@ class _Wake(_Inflow):
     """What goes on behind the free filaments: repeats of the last turn, or, for tip vortices alone in hover and climb, a
     semi-infinite vortex cylinder (`cylinder`) [branlard2014]."""
     far_wake_turns: int | None = None
-    """Repeats of the last turn beyond the free filaments; by regime: 0 forward, 2 hover and climb, 0 axial descent; none where a
-    `cylinder` closes the wake."""
+    """Repeats of the last turn beyond the free filaments; by regime: 0 forward, 2 hover and climb, 0 axial descent; none with a
+    `cylinder` or full-span trailers."""
     release_radius: float = 1.0
     """Where the tip vortex leaves the blade, over the radius."""
     n_stations: int = 20

@@ -11,9 +11,11 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from importlib import resources
+from numbers import Real
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -21,6 +23,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from .errors import InputError, one_line
+from .references import known_keys
 from .text import read_toml
 from .units import quantity
 
@@ -29,6 +32,12 @@ STICKS = ("lateral", "longitudinal", "collective", "pedal")
 
 SHIPPED = ("arrested-descent", "roll-reversal")
 """Names of the manoeuvres that come with the package."""
+
+ROUNDING = 1e-9
+"""Times [s] nearer than this are one: corners at the edge of a coupling step are met there."""
+
+SHORTEST_PIECE = 1e-6
+"""Least time [s] between two corners: less than a recorder has, and rates of stick stay numbers."""
 
 Corner = tuple[float, float]
 _Real = Annotated[float, Field(strict=True)]
@@ -39,7 +48,8 @@ _Points = list[tuple[_Real, _Real]] | None
 class Maneuver:
     """A stick history about trim.
 
-    corners_of: for each stick that moves, its corner points (time [s], inches from trim), times ascending.
+    corners_of: for each stick that moves, its corner points (time [s], inches from trim), times ascending; given as a mapping
+    by the stick's name or as pairs.
     revolutions, seconds: duration, one of the two given. travel_in: travel the inches belong to [in], rotor_speed: rotor
     speed the revolutions belong to [rad/s]; None: they are those of whatever aircraft flies. shipped: whether it comes with
     the package and is flown as published, even beyond the stops. adapted: what `for_aircraft` changed, a sentence each.
@@ -61,13 +71,66 @@ class Maneuver:
         if (self.revolutions is None) == (self.seconds is None):
             raise InputError.of("duration", self.name, "must be given either in revolutions or in seconds")
         length = self.revolutions if self.revolutions is not None else self.seconds
-        if length is not None and not (math.isfinite(length) and 0.0 < length <= 10000.0):
+        if not 0.0 < _real("duration", length) <= 10000.0:
             raise InputError.of("duration", length, "must lie above 0 and at most 10000")
-        for name, value, unit in (("travel", self.travel_in, "in"), ("rotor_speed", self.rotor_speed, "rad/s")):
-            if value is not None and not (math.isfinite(value) and value > 0.0):
-                raise InputError.of(name, value, f"must be above 0 {unit}")
+        for name, value, unit, low, high in (
+            ("travel", self.travel_in, "in", 0.1, 100.0),
+            ("rotor_speed", self.rotor_speed, "rad/s", 0.1, 1000.0),
+        ):
+            if value is not None and not low <= _real(name, value) <= high:
+                raise InputError.of(name, value, f"must lie between {low:g} and {high:g} {unit}")
+        if self.rotor_speed is not None and self.seconds is not None:
+            allowed = "belongs to a duration in revolutions; one in seconds does not use it"
+            raise InputError.of("rotor_speed", self.rotor_speed, allowed)
+        if isinstance(self.corners_of, Mapping):
+            object.__setattr__(self, "corners_of", tuple(self.corners_of.items()))
+        if not isinstance(self.corners_of, tuple | list):
+            raise InputError.of(
+                "corners_of", self.corners_of, "must hold the corners of each stick that moves, by its name"
+            )
+        for given in self.corners_of:
+            _check_history(given)
+        own = tuple((stick, tuple((float(t), float(x)) for t, x in corners)) for stick, corners in self.corners_of)
+        object.__setattr__(self, "corners_of", own)
+        sticks = [stick for stick, _ in self.corners_of]
+        for stick in sticks:
+            if sticks.count(stick) > 1:
+                raise InputError.of("controls", stick, "given twice; one history for each stick")
+        if self.seconds is not None:
+            self._check_begins(self.seconds)
+
+    @cached_property
+    def _histories(self) -> tuple[tuple[int, np.ndarray, np.ndarray, np.ndarray], ...]:
+        """For each stick that moves: its place among the sticks, corner times [s], inches, slopes of the pieces [in/s]."""
+        return tuple(
+            (
+                STICKS.index(stick),
+                *(np.array(each, dtype=float) for each in zip(*corners, strict=True)),
+                _slopes(corners),
+            )
+            for stick, corners in self.corners_of
+        )
+
+    def _check_begins(self, end: float) -> None:
+        """Refuse a stick that would first move when the flight is over."""
         for stick, corners in self.corners_of:
-            _check_corners(stick, corners)
+            begins = next((t for (t, _), slope in zip(corners, _slopes(corners), strict=False) if slope != 0.0), None)
+            if begins is not None and begins >= end:
+                allowed = f"must begin to move before the end of the flight at {end:.6g} s: times count from its start"
+                raise InputError.of(stick, f"{begins:.12g} s", allowed)
+
+    def check_end(self, end: float) -> list[str]:
+        """Warnings about motion of the sticks after the end of the flight at `end` [s]."""
+        warnings = []
+        for stick, corners in self.corners_of:
+            moved = [t for (t, _), slope in zip(corners[1:], _slopes(corners), strict=True) if slope != 0.0]
+            if moved and moved[-1] > end * (1.0 + 1e-9):
+                first = next(t for t in moved if t > end * (1.0 + 1e-9))
+                warnings.append(
+                    f"{self.name}: the flight ends at {end:.6g} s; {stick} corners from {first:.6g} s on, to {moved[-1]:.6g} s, "
+                    "are not flown"
+                )
+        return warnings
 
     def duration(self, omega: float) -> float:
         """Length of the flight [s] with a rotor turning at `omega` [rad/s]."""
@@ -96,9 +159,8 @@ class Maneuver:
     def offset(self, t: float) -> np.ndarray:
         """Sticks from trim (4,) [in] at time `t` [s]."""
         sticks = np.zeros(4)
-        for stick, corners in self.corners_of:
-            times, inches = zip(*corners, strict=True)
-            sticks[STICKS.index(stick)] = np.interp(t, times, inches)
+        for stick, times, inches, _ in self._histories:
+            sticks[stick] = np.interp(t, times, inches)
         return sticks
 
     def stick(self, t: float, trim_in: Sequence[float]) -> np.ndarray:
@@ -109,10 +171,10 @@ class Maneuver:
     def rate(self, t: float) -> np.ndarray:
         """Stick rates (4,) [in/s] at time `t` [s]; at a corner the rate that follows."""
         rates = np.zeros(4)
-        for stick, corners in self.corners_of:
-            for (start, _), (end, _), slope in zip(corners, corners[1:], _slopes(corners), strict=False):
-                if start <= t < end:
-                    rates[STICKS.index(stick)] = slope
+        for stick, times, _, slopes in self._histories:
+            piece = int(np.searchsorted(times, t, side="right")) - 1
+            if 0 <= piece < len(slopes):
+                rates[stick] = slopes[piece]
         return rates
 
     def for_aircraft(self, travel_in: Sequence[float], omega: float) -> Maneuver:
@@ -141,7 +203,7 @@ class Maneuver:
                     f"{self.name}: {self.revolutions:g} revolutions at {self.rotor_speed:g} rad/s last {written:.3f} s, which "
                     f"are {revolutions:g} at {omega:g} rad/s, rounded up to whole ones ({self.duration(omega):.3f} s)"
                 )
-        return replace(
+        own = replace(
             self,
             corners_of=tuple(corners_of),
             revolutions=revolutions,
@@ -149,6 +211,8 @@ class Maneuver:
             rotor_speed=None,
             adapted=tuple(adapted),
         )
+        own._check_begins(own.duration(omega))
+        return own
 
     def check_span(self, travel_in: Sequence[float]) -> None:
         """Refuse a user's manoeuvre that fits between the stops for no trim; travel_in (4,) [in]."""
@@ -290,7 +354,7 @@ def _read(path: Path, shipped: bool) -> Maneuver:
             revolutions=file.duration.revolutions,
             seconds=file.duration.seconds,
             notes=file.notes.strip(),
-            references=tuple(file.sources),
+            references=_known(file.sources),
             travel_in=file.travel,
             rotor_speed=file.rotor_speed,
             shipped=shipped,
@@ -299,14 +363,42 @@ def _read(path: Path, shipped: bool) -> Maneuver:
         raise InputError(f"{path}: {reason}") from None
 
 
-def _check_corners(stick: str, corners: Sequence[Corner]) -> None:
+def _known(sources: list[str]) -> tuple[str, ...]:
+    for key in sources:
+        if key not in known_keys():
+            raise InputError.of(
+                "sources", key, "not in references.bib; leave it out and say in notes where it comes from"
+            )
+    return tuple(sources)
+
+
+def _real(name: str, value: Any) -> float:
+    """`value` as a float; InputError where it is no finite number."""
+    if isinstance(value, bool) or not isinstance(value, Real):
+        raise InputError.of(name, value, "must be a number")
+    try:
+        number = float(value)
+    except OverflowError:
+        number = math.inf
+    if not math.isfinite(number):
+        raise InputError.of(name, value, "must be finite")
+    return number
+
+
+def _check_history(given: Any) -> None:
+    """Refuse what is no stick with its corners, times ascending from 0 s, inches from 0."""
+    if not isinstance(given, tuple | list) or len(given) != 2:
+        raise InputError.of("corners_of", given, "must hold a pair (stick, corners) for each stick that moves")
+    stick, corners = given
     if stick not in STICKS:
         raise InputError.of("controls", stick, f"allowed: {', '.join(STICKS)}")
+    for corner in corners if isinstance(corners, tuple | list) else [corners]:
+        if not isinstance(corner, tuple | list) or len(corner) != 2:
+            raise InputError.of(stick, corner, "must hold pairs of numbers (time s, inches from trim)")
+        for each in corner:
+            _real(stick, each)
     if len(corners) < 2:
         raise InputError.of(stick, list(corners), "must have at least two corner points [time s, inches from trim]")
-    for time, inches in corners:
-        if not (math.isfinite(time) and math.isfinite(inches)):
-            raise InputError.of(stick, [time, inches], "must be finite")
     if corners[0][0] < 0.0:
         raise InputError.of(stick, f"{corners[0][0]:g} s", "must start at 0 s or later")
     if corners[0][1] != 0.0:
@@ -314,6 +406,9 @@ def _check_corners(stick: str, corners: Sequence[Corner]) -> None:
     for (before, _), (after, _) in itertools.pairwise(corners):
         if not after > before:
             raise InputError.of(stick, f"{before:g} s, {after:g} s", "times must ascend strictly")
+        if after - before < SHORTEST_PIECE:
+            allowed = f"corners must be {SHORTEST_PIECE:g} s apart or more: a hand does not jump"
+            raise InputError.of(stick, f"{before:.9g} s, {after:.9g} s", allowed)
 
 
 def _slopes(corners: Sequence[Corner]) -> list[float]:

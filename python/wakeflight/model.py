@@ -10,7 +10,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from . import _core
+from . import _core, disk
 from .aircraft import Aircraft
 from .condition import FlightCondition
 from .inflow import DynamicInflow, InflowModel, RelaxationWake, TimeMarchingWake
@@ -55,9 +55,8 @@ class CompiledRotor:
 
     @cached_property
     def area_weights(self) -> np.ndarray:
-        """Shares of the disk area that the stations stand for (n_stations,), summing to one."""
-        area = self.stations * np.asarray(self.rotor["widths"])
-        return area / area.sum()
+        """Shares of the disk's area between root cutout and tip that the stations stand for (n_stations,), summing to one."""
+        return disk.area_weights(self.stations, np.asarray(self.rotor["widths"]))
 
     @property
     def steps_per_revolution(self) -> int:
@@ -87,7 +86,12 @@ class CompiledRotor:
 
     def disk_mean(self, inflow: np.ndarray) -> float:
         """Area mean of an inflow map (..., n_stations)."""
-        return float(np.mean(inflow @ self.area_weights))
+        return disk.disk_mean(inflow, self.area_weights)
+
+    def first_harmonics(self, inflow: np.ndarray) -> tuple[float, float, float]:
+        """Area mean and first harmonics of an inflow map (n_azimuths, n_stations), the first azimuth being zero."""
+        psi = 2 * np.pi * np.arange(inflow.shape[0]) / inflow.shape[0]
+        return disk.first_harmonics(inflow, psi, self.stations / self.rotor["radius"], self.area_weights)
 
     def carrying_inflow(self, circulation: np.ndarray, hub_velocity: np.ndarray) -> float:
         """Inflow of momentum theory for the thrust of a circulation map (n_azimuths, n_stations) [m2/s]: it carries the sheet.

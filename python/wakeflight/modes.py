@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import csv
 import json
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,6 +13,22 @@ import numpy as np
 from . import _core
 from .aircraft import Aircraft, Rotor, load_rotor
 from .errors import InputError
+
+KINDS = ("flap", "lag", "torsion")
+CLEAR = 0.7
+"""Share of the kinetic energy from which a mode is called by one kind alone."""
+LEAST = 0.3
+"""Share with which a mode may still stand for a name."""
+NEAR = 0.05
+"""Relative difference of frequency below which a mode of another kind is worth naming beside the one of the same kind."""
+NOISE = 0.02
+"""Deflections below this share of the largest do not make a node."""
+
+
+def nodes(shape: np.ndarray) -> int:
+    """Changes of sign of a mode shape (n,) between root and tip."""
+    felt = shape[np.abs(shape) > NOISE * np.abs(shape).max()]
+    return int(np.count_nonzero(np.diff(np.sign(felt))))
 
 
 @dataclass(frozen=True)
@@ -33,15 +50,45 @@ class BladeModes:
         return self.natural_frequencies / self.omega
 
     @property
+    def components(self) -> list[dict[str, float]]:
+        """What each mode is made of: share of its kinetic energy by kind and order, `flap 3`, the largest first.
+
+        The order is that of the kind's own shape: one more than the nodes between root and tip of the deflection (flap, lag) or
+        of the twist (torsion), in whatever order the frequencies come.
+        """
+        made = []
+        for i, shares in enumerate(self.shares):
+            orders = [1 + nodes(self.shapes[part][i]) for part in ("flap", "lead", "twist")]
+            named = {f"{kind} {order}": float(s) for kind, order, s in zip(KINDS, orders, shares, strict=True)}
+            made.append(dict(sorted(named.items(), key=lambda item: -item[1])))
+        return made
+
+    @property
     def labels(self) -> list[str]:
-        """What each mode mostly is, counted by kind: lag 1, flap 1, flap 2 ..."""
-        counted: dict[str, int] = {}
-        names = []
-        for share in self.shares:
-            kind = ("flap", "lag", "torsion")[int(np.argmax(share))]
-            counted[kind] = counted.get(kind, 0) + 1
-            names.append(f"{kind} {counted[kind]}")
-        return names
+        """What each mode mostly is: `flap 2`; where modes veer and no kind has seven tenths, the two largest: `lag 2/flap 3`."""
+        found = []
+        for made in self.components:
+            (first, share), (second, _) = list(made.items())[:2]
+            found.append(first if share >= CLEAR else f"{first}/{second}")
+        return found
+
+    def matched(self, names: Sequence[str]) -> dict[str, int | None]:
+        """Index of the mode that each of `names` (`lag 2`, `torsion 1` ...) is by content; None where no mode kept is.
+
+        A mode stands for one name, the one of which it has most; with less than three tenths of it, for none.
+        """
+        made = self.components
+        pairs = sorted(
+            ((made[i][name], name, i) for name in names for i in range(len(made)) if made[i].get(name, 0.0) >= LEAST),
+            reverse=True,
+        )
+        found: dict[str, int | None] = dict.fromkeys(names)
+        taken: set[int] = set()
+        for _, name, i in pairs:
+            if found[name] is None and i not in taken:
+                found[name] = i
+                taken.add(i)
+        return found
 
     @property
     def has_torsion(self) -> bool:
@@ -102,34 +149,55 @@ def blade_modes(
 def reference_table(aircraft: Aircraft, modes: BladeModes) -> str | None:
     """Frequencies beside every column of the aircraft's `reference/blade_frequencies.csv`, None where it has none.
 
-    The published labels are those of uncoupled modes; coupled ones are compared with them in ascending order.
+    A published mode is compared with ours of the same content. Where another of ours is nearer in frequency it is named too:
+    curves that are labelled along a rotor speed keep their label through a veering, in which the modes change their content.
     """
     path = aircraft.path.parent / "reference" / "blade_frequencies.csv"
     if not path.is_file():
         return None
     with path.open() as stream:
         rows = list(csv.DictReader(line for line in stream if not line.startswith("#")))
-    columns = [name for name in rows[0] if name not in ("mode", "note")]
-    # a column that names some modes only is placed by the first that names them all
-    whole = next((name for name in columns if all(row[name] for row in rows)), None)
-    lines = ["against published and computed frequencies, each column in ascending order [1/rev]:"]
-    for column in columns:
-        order = whole if whole is not None and not all(row[column] for row in rows) else column
-        ranked = sorted((row for row in rows if row[order]), key=lambda row: float(row[order]))
+    lines = ["against published and computed frequencies of the same kind and order [1/rev]:"]
+    labels, ours = modes.labels, modes.frequencies
+    for column in (name for name in rows[0] if name not in ("mode", "note")):
+        named = {row["mode"]: float(row[column]) for row in rows if row[column]}
+        found = modes.matched([_kind_and_order(name) for name in named])
         lines.append(f"  {column}")
-        for row, ours in zip(ranked, modes.frequencies, strict=False):
-            if row[column]:
-                value = float(row[column])
-                lines.append(
-                    f"    {row['mode']:<20} {value:8.4f}  ours {ours:8.4f}  difference {ours / value - 1:+7.2%}"
-                )
+        for name, value in named.items():
+            i = found[_kind_and_order(name)]
+            nearest = int(np.argmin(np.abs(ours - value)))
+            text = "none of ours" if i is None else _compared(ours[i], value, labels[i])
+            if nearest != i and abs(ours[nearest] / value - 1) < NEAR:
+                text += f"; nearest {_compared(ours[nearest], value, labels[nearest])}"
+            lines.append(f"    {name:<20} {value:8.4f}  {text}")
     return "\n".join(lines)
 
 
-def fan(aircraft: Aircraft, n_modes: int = 7) -> tuple[np.ndarray, np.ndarray]:
-    """Rotor speeds up to the nominal one (n,) and frequencies (n, n_modes), both [rad/s], for a fan plot."""
+def _kind_and_order(name: str) -> str:
+    """`flap 2` of `flap 2 (1st elastic)`."""
+    return " ".join(name.split()[:2])
+
+
+def _compared(ours: float, value: float, label: str) -> str:
+    return f"ours {ours:8.4f} {ours / value - 1:+7.2%} ({label})"
+
+
+def mode_labels(rotor: Aircraft | Rotor) -> list[str]:
+    """What the modes that a result's `modal` coordinates belong to mostly are, by `BladeModes.labels`."""
+    loaded = load_rotor(rotor)
+    if loaded.flexible:
+        return blade_modes(loaded).labels
+    return ["lag 1", "flap 1"][2 - loaded.discretisation.n_modes :] if loaded.discretisation.n_modes else []
+
+
+def fan(aircraft: Aircraft, n_modes: int = 7) -> tuple[np.ndarray, np.ndarray, list[str]]:
+    """For a fan plot: rotor speeds up to the nominal one (n,), frequencies (n, n_modes), both [rad/s], labels at the nominal one.
+
+    A line is the mode of one place in ascending order: where two lines approach and part, the modes exchange what they are.
+    """
     speeds = np.linspace(0.1, 1.0, 19) * float(aircraft.rotor.omega)
-    return speeds, np.array([blade_modes(aircraft, n_modes, rotor_speed=w).frequencies * w for w in speeds])
+    found = [blade_modes(aircraft, n_modes, rotor_speed=w) for w in speeds]
+    return speeds, np.array([each.natural_frequencies for each in found]), found[-1].labels
 
 
 def fan_reference(aircraft: Aircraft) -> dict[str, tuple[np.ndarray, np.ndarray]]:

@@ -14,6 +14,7 @@ from .flight_monitors import check_sample, monitors
 from .inflow import DynamicInflow
 from .maneuvers import Maneuver
 from .model import Model
+from .modes import mode_labels
 from .monitors import Monitor, variables
 
 if TYPE_CHECKING:
@@ -255,6 +256,7 @@ class Recorder:
             "inflow_model": model.inflow.name,
             "radius": model.rotor["radius"],
             "omega": model.omega,
+            "blade_modes": mode_labels(start.aircraft),
             "configuration": configuration,
             "condition": start.condition.as_attributes(),
             "ct": mean["ct"],

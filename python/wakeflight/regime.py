@@ -42,10 +42,11 @@ def regime(in_plane: float, climb: float, tip_speed: float) -> str:
 def resolved(options: dict[str, Any], regime: str) -> dict[str, Any]:
     """Those of `options` that are None because their default depends on the regime, with the number of `regime`.
 
-    A wake that a vortex cylinder closes has no repeated turns in any regime.
+    No turns are repeated in any regime where a vortex cylinder closes the wake, or where trailers all over the span are
+    free: their old end tumbles, and its repeats would drive it.
     """
     found = {name: BY_REGIME[name][regime] for name, value in options.items() if value is None and name in BY_REGIME}
-    if options.get("far_wake") == "cylinder" and "far_wake_turns" in found:
+    if "far_wake_turns" in found and (options["far_wake"] == "cylinder" or options["trailers"] == "full-span"):
         found["far_wake_turns"] = 0
     return found
 

@@ -404,6 +404,7 @@ ATTRIBUTES: tuple[Attribute, ...] = (
     Attribute("seconds_dynamics", "wall clock: flight dynamics [s]"),
     Attribute("seconds_total", "wall clock: total [s]"),
     Attribute("blades", "flexible or rigid"),
+    Attribute("blade_modes", "what each blade mode mostly is, in ascending order of frequency"),
     Attribute("integrator", "integrator"),
     Attribute("integration_method", "what the integrator does"),
     Attribute("residual_evaluations", "residual evaluations"),

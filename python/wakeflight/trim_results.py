@@ -8,7 +8,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .inflow import DynamicInflow
+from .model import flight_regime
+from .modes import mode_labels
 from .monitors import lines, variables
+from .regime import REGIMES
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -58,16 +61,8 @@ def mean_outputs(start: Trim) -> dict[str, Any]:
 
 
 def first_harmonics(start: Trim) -> tuple[float, float, float]:
-    """lambda_0, lambda_1c, lambda_1s of the inflow map: area mean and fits of r cos psi, r sin psi over the stations."""
-    model, lam = start.model, start.inflow_map
-    psi = 2 * np.pi * np.arange(lam.shape[0]) / lam.shape[0]
-    r = model.stations / model.rotor["radius"]
-    w = r * np.asarray(model.rotor["widths"])
-    values = []
-    for shape in (np.cos(psi), np.sin(psi)):
-        basis = np.outer(shape, r)
-        values.append(float(np.sum(lam * basis * w) / np.sum(basis**2 * w)))
-    return model.disk_mean(lam), values[0], values[1]
+    """lambda_0, lambda_1c, lambda_1s of the inflow map: see `disk.first_harmonics`."""
+    return start.model.first_harmonics(start.inflow_map)
 
 
 def to_dataset(start: Trim) -> xr.Dataset:
@@ -127,6 +122,7 @@ def to_dataset(start: Trim) -> xr.Dataset:
         "inflow_model": start.inflow.name,
         "radius": model.rotor["radius"],
         "omega": model.omega,
+        "blade_modes": mode_labels(start.aircraft),
         "yaw": start.yaw,
         "configuration": {
             "aircraft": start.aircraft.name,
@@ -158,7 +154,7 @@ def table(start: Trim) -> str:
             f"{condition.speed / 0.514444:.1f} kt, flight path {deg(condition.flight_path):.2f} deg, "
             f"{condition.altitude / 0.3048:.0f} ft, {condition.gross_mass / 0.45359237:.0f} lb",
         ),
-        ("inflow model", start.inflow.name),
+        ("inflow model", start.inflow.name + _wake_length(start)),
         *[
             (f"{name} stick", f"{stick[name]:7.3f} in of {full:.2f}")
             for name, full in zip(("lateral", "longitudinal", "collective", "pedal"), travel, strict=True)
@@ -203,3 +199,11 @@ def table(start: Trim) -> str:
     rows += [("warning", text) for text in start.warnings]
     width = max(len(name) for name, _ in rows)
     return "\n".join(f"{name:<{width}}  {value.strip()}" for name, value in rows)
+
+
+def _wake_length(start: Trim) -> str:
+    """Regime and length of a free wake, to follow its name."""
+    if isinstance(start.inflow, DynamicInflow):
+        return ""
+    regime = flight_regime(start.aircraft, start.condition)
+    return f", {start.inflow.turns:g} turns free, {start.inflow.far_wake_turns} repeated ({REGIMES[regime]})"

@@ -130,7 +130,7 @@ def mass_of_weight(value: Any, field: str = "weight") -> float:
 def shown(value: float, unit: str) -> str:
     """SI `value` as text in `unit`, for messages: six significant digits."""
     known = factor(unit)
-    return f"{value / (known[0] if known else 1.0):.6g} {unit}"
+    return f"{value / (known[0] if known else 1.0):.6g} {'' if unit == '1' else unit}".rstrip()
 
 
 def _registry() -> Any:

@@ -28,9 +28,9 @@ RUST_ORDER = (
 # each module may import itself and the rows before its own; a new module needs its place here
 PYTHON_ORDER = (
     {"_core", "errors", "schema", "regime", "disk"},
-    {"units", "references", "vortex", "progress", "limits"},
+    {"units", "references", "vortex", "progress", "limits", "text"},
     {"condition", "inflow", "results", "maneuvers", "wing", "monitors"},
-    {"aircraft"},
+    {"aircraft", "thinning"},
     {"model", "modes"},
     {"integrators", "exchange"},
     {"wake_trim", "trim_results", "trim_equations"},

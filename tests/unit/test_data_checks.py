@@ -164,6 +164,24 @@ def test_section_tables_that_end_below_the_advancing_tip_are_told(tmp_path):
     assert "Mach 0.77" in warning
 
 
+@pytest.mark.parametrize(("column", "told"), [("Lq_ft2", "lift falls"), ("Yq_ft2", "into the wind")])
+def test_a_fuselage_whose_forces_are_the_wrong_way_round_is_told(tmp_path, column, told):
+    path = copied(tmp_path, "uh60a")
+    table = path.parent / "fuselage.csv"
+    header, lines = None, []
+    for line in table.read_text().splitlines():
+        cells = line.split(",")
+        if not line.startswith("#") and header is not None:
+            at = header.index(column)
+            cells[at] = repr(-float(cells[at]))
+        elif not line.startswith("#"):
+            header = cells
+        lines.append(",".join(cells))
+    table.write_text("\n".join(lines) + "\n")
+    (warning,) = load_aircraft(path).warnings
+    assert told in warning
+
+
 def test_keys_that_speak_to_a_part_that_is_off_are_told(tmp_path):
     path = copied(tmp_path, "uh60a")
     text = path.read_text()
@@ -175,6 +193,6 @@ def test_keys_that_speak_to_a_part_that_is_off_are_told(tmp_path):
 
 def test_the_limit_of_power_is_what_the_file_states():
     assert load_aircraft("uh60a").limits.power == pytest.approx(2828 * 745.6999, rel=1e-6)
-    assert load_aircraft("bo105").limits.power is None
+    assert load_aircraft("bo105").limits.power == pytest.approx(515e3)
     rows = {row.key: row for row in load_aircraft("uh60a").sources()}
-    assert (rows["limits.power"].value, rows["limits.power"].confidence) == (2828, "A")
+    assert (rows["limits.power"].value, rows["limits.power"].confidence) == (2828, "A/B")

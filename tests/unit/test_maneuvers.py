@@ -138,3 +138,82 @@ def test_a_wrong_file_gets_one_line(tmp_path, old, new, named):
 def test_an_unknown_name_lists_the_known_ones():
     with pytest.raises(InputError, match=r"arrested-descent, roll-reversal"):
         load_maneuver("loop")
+
+
+@pytest.mark.parametrize(
+    ("given", "named"),
+    [
+        # clock times: nothing of it would be flown
+        (
+            {"corners_of": (("lateral", ((1.7e9, 0.0), (1.7e9 + 1, 0.2))),), "seconds": 2.0},
+            "before the end of the flight",
+        ),
+        ({"corners_of": (("lateral", ((2.0, 0.0), (3.0, 0.2))),), "seconds": 2.0}, "lateral"),
+        ({"corners_of": (("throttle", ((0.0, 0.0), (1.0, 0.2))),), "seconds": 2.0}, "throttle"),
+        ({"corners_of": (("pedal", ((0.0, 0.0), (1.0, 0.2))),) * 2, "seconds": 2.0}, "given twice"),
+        ({"corners_of": (("pedal", ((0.0, 0.1), (1.0, 0.2))),), "seconds": 2.0}, "trim"),
+        ({"corners_of": (("pedal", ((-1.0, 0.0), (1.0, 0.2))),), "seconds": 2.0}, "0 s or later"),
+        ({"corners_of": (("pedal", ((0.0, 0.0), (0.0, 0.2))),), "seconds": 2.0}, "ascend"),
+        ({"corners_of": (("pedal", ((0.0, 0.0), (1.0, "0.2"))),), "seconds": 2.0}, "must be a number"),
+        ({"corners_of": (("pedal", ((0.0, 0.0), (1.0, 1e400))),), "seconds": 2.0}, "finite"),
+        ({"corners_of": (("pedal", (0.0, 0.0, 1.0, 0.2)),), "seconds": 2.0}, "pairs of numbers"),
+        ({"corners_of": (("pedal", ((0.0, 0.0), (1.0, 10**400))),), "seconds": 2.0}, "finite"),
+        ({"corners_of": None, "seconds": 2.0}, "corners_of"),
+        ({"corners_of": (("pedal", ((0.0, 0.0), (1.0, 0.2))),), "seconds": "2"}, "duration"),
+        (
+            {"corners_of": (("pedal", ((0.0, 0.0), (1.0, 0.2))),), "revolutions": 2, "rotor_speed": 1e-308},
+            "rotor_speed",
+        ),
+        ({"corners_of": (("pedal", ((0.0, 0.0), (1.0, 0.2))),), "seconds": 2, "travel_in": "1"}, "travel"),
+        ({"corners_of": {"pedal": (0.0, 1.0)}, "seconds": 2.0}, "pairs of numbers"),
+        ({"corners_of": (("pedal", ((0.0, 0.0), (1.0, 0.2))),), "seconds": 2.0, "rotor_speed": 27.0}, "rotor_speed"),
+    ],
+)
+def test_a_history_that_would_not_be_flown_is_refused(given, named):
+    with pytest.raises(InputError) as caught:
+        Maneuver("x", **given)
+    assert named in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_history_in_revolutions_that_begins_after_the_end_is_refused_for_the_aircraft():
+    # three revolutions at 27 rad/s are 0.698 s
+    late = Maneuver("late", (("pedal", ((0.8, 0.0), (1.0, 0.5))),), revolutions=3)
+    with pytest.raises(InputError, match=r"0\.698"):
+        late.for_aircraft(TRAVEL, OMEGA)
+    assert late.for_aircraft(TRAVEL, OMEGA / 2).check_end(1.396) == []
+
+
+def test_corners_after_the_end_of_the_flight_are_named():
+    cut = Maneuver("cut", (("pedal", ((0.5, 0.0), (1.0, 0.5), (3.0, 0.5), (4.0, 0.0))),), seconds=2.0)
+    (warning,) = cut.check_end(2.0)
+    assert "pedal corners from 4 s on" in warning
+    # held at the end, nothing is lost
+    held = Maneuver("held", (("pedal", ((0.5, 0.0), (1.0, 0.5), (9.0, 0.5))),), seconds=2.0)
+    assert held.check_end(2.0) == []
+    still = Maneuver("still", (("pedal", ((0.0, 0.0), (9.0, 0.0))),), seconds=2.0)
+    assert still.check_end(2.0) == []
+
+
+def test_a_manoeuvre_file_may_begin_with_a_byte_order_mark(tmp_path):
+    path = tmp_path / "bom.toml"
+    path.write_bytes(b"\xef\xbb\xbf" + GOOD.encode())
+    assert load_maneuver(path).name == "x"
+    path.write_bytes(GOOD.replace('"x"', '"\u00fc"').encode("latin-1"))
+    with pytest.raises(InputError, match="UTF-8"):
+        load_maneuver(path)
+
+
+def test_sticks_may_be_given_by_name():
+    by_name = Maneuver("step", {"lateral": [(0.1, 0.0), (0.3, 1)]}, seconds=3.0)
+    assert by_name == Maneuver("step", (("lateral", ((0.1, 0.0), (0.3, 1.0))),), seconds=3.0)
+    assert hash(by_name) == hash(by_name.for_aircraft(TRAVEL, OMEGA))
+    with pytest.raises(InputError, match="throttle"):
+        Maneuver("step", {"throttle": [(0.1, 0.0), (0.3, 1.0)]}, seconds=3.0)
+
+
+def test_a_stick_does_not_jump():
+    # times that ascend by less than a recorder resolves are a jump, whose rate is no number
+    for gap in (1e-9, 5e-324):
+        with pytest.raises(InputError, match="jump"):
+            Maneuver("jump", {"pedal": [(0.0, 0.0), (gap, 1.0)]}, seconds=1.0)

@@ -6,6 +6,7 @@ import pytest
 
 import wakeflight as wf
 from wakeflight.errors import InputError
+from wakeflight.modes import BladeModes, mode_labels, reference_table
 
 BEAM = """
 format = 1
@@ -67,6 +68,69 @@ def test_modes_of_an_aircraft_are_those_of_its_rotor():
     own, rotor = wf.blade_modes(aircraft), wf.blade_modes(wf.load_rotor(aircraft))
     assert np.array_equal(own.natural_frequencies, rotor.natural_frequencies)
     assert own.frequencies == pytest.approx(own.natural_frequencies / 44.4)
+
+
+def made_of(shares, flap, lead, twist):
+    """Modes of given shares and shapes, at frequencies 1, 2, 3 ... per revolution."""
+    n = len(shares)
+    shapes = {"flap": np.array(flap), "lead": np.array(lead), "twist": np.array(twist)}
+    return BladeModes(np.arange(1.0, n + 1), np.array(shares), np.linspace(0, 1, 50), shapes, 1.0, 0.0)
+
+
+R = np.linspace(0, 1, 50)
+RIGID, ONE_NODE, TWO_NODES = R, np.sin(1.5 * np.pi * R), np.sin(2.5 * np.pi * R)
+
+
+def test_a_mode_is_named_by_what_it_is_made_of_and_by_its_nodes_not_by_its_place():
+    # torsion below the second flap mode, and a third flap mode without the second among those kept
+    modes = made_of(
+        [[0.02, 0.98, 0.0], [0.99, 0.01, 0.0], [0.05, 0.0, 0.95], [0.9, 0.1, 0.0]],
+        flap=[RIGID, RIGID, ONE_NODE, TWO_NODES],
+        lead=[RIGID, RIGID, RIGID, ONE_NODE],
+        twist=[0.01 * R, 0.01 * R, R, 0.01 * R],
+    )
+    assert modes.labels == ["lag 1", "flap 1", "torsion 1", "flap 3"]
+    assert modes.matched(["flap 3", "flap 2", "torsion 1"]) == {"flap 3": 3, "flap 2": None, "torsion 1": 2}
+
+
+def test_modes_that_veer_carry_both_names_and_each_name_has_one_mode():
+    modes = made_of(
+        [[0.45, 0.52, 0.03], [0.53, 0.44, 0.03]],
+        flap=[TWO_NODES, TWO_NODES],
+        lead=[ONE_NODE, ONE_NODE],
+        twist=[R, R],
+    )
+    assert modes.labels == ["lag 2/flap 3", "flap 3/lag 2"]
+    assert modes.matched(["flap 3", "lag 2"]) == {"flap 3": 1, "lag 2": 0}
+    # one name has no claim to both
+    assert modes.matched(["lag 2"]) == {"lag 2": 0}
+
+
+def test_noise_near_the_root_is_no_node():
+    shape = np.where(R < 0.1, -0.01 * np.sin(10 * np.pi * R), TWO_NODES)
+    one = made_of([[0.9, 0.05, 0.05]], flap=[shape], lead=[R], twist=[R])
+    assert one.labels == ["flap 3"]
+
+
+def test_published_modes_are_compared_with_ours_of_the_same_kind(uh60a):
+    # the sixth mode of the UH-60A is flap 3, near the published torsion in frequency alone
+    modes = wf.blade_modes(uh60a, n_modes=7)
+    assert modes.labels[3:6] == ["lag 2/flap 3", "torsion 1", "flap 3"]
+    table = reference_table(uh60a, modes)
+    published = table[table.index("BD_fanplot") :].splitlines()
+    torsion, flap = (next(row for row in published if name in row) for name in ("torsion 1 ", "flap 3 "))
+    assert "5.2030  ours   4.7977  -7.79% (torsion 1); nearest ours   5.2078  +0.09% (flap 3)" in torsion
+    assert "4.8810  ours   5.2078  +6.70% (flap 3)" in flap
+    # five modes kept: the third flap mode is not among them, and none stands in for it
+    few = reference_table(uh60a, wf.blade_modes(uh60a))
+    assert few.count("none of ours") == 4
+
+
+def test_results_name_the_modes_that_their_coordinates_belong_to(uh60a):
+    assert mode_labels(uh60a) == ["lag 1", "flap 1", "flap 2", "lag 2/flap 3", "torsion 1"]
+    assert mode_labels(uh60a.with_rigid_blades()) == ["lag 1", "flap 1"]
+    stand = wf.tunnel("uh60a", ct=0.006, inflow="dynamic")
+    assert stand.data.attrs["blade_modes"] == '["lag 1", "flap 1", "flap 2", "lag 2/flap 3", "torsion 1"]'
 
 
 @pytest.mark.parametrize(

@@ -129,6 +129,8 @@ def test_mode_figures_draw_every_mode():
     speed = np.linspace(0, 27, 8)
     fan = modes.fan_plot(speed, np.sqrt(4 + np.outer(speed**2, [0.07, 1.07])))
     assert fan.axes[0].get_ylabel() == "frequency [Hz]"
+    named = modes.fan_plot(speed, np.sqrt(4 + np.outer(speed**2, [0.07, 1.07])), ["lag 1", "flap 1"])
+    assert [text.get_text().split(":")[0] for text in named.legends[0].texts] == ["lag 1", "flap 1"]
 
 
 def test_the_same_figure_gives_the_same_bytes(run, tmp_path):

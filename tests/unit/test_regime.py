@@ -53,9 +53,11 @@ def test_only_what_was_not_given_is_left_to_the_regime(kind, name):
     assert (given.turns, given.far_wake_turns, given.sheet_factor) == (3.0, 1, 1.1)
 
 
-def test_a_wake_closed_by_a_cylinder_has_no_repeated_turns():
-    closed = wf.RelaxationWake(far_wake="cylinder").resolved("hover")
+@pytest.mark.parametrize("given", [{"far_wake": "cylinder"}, {"trailers": "full-span"}])
+def test_turns_are_not_repeated_where_a_cylinder_closes_the_wake_or_free_sheets_end_it(given):
+    closed = wf.RelaxationWake(**given).resolved("hover")
     assert (closed.turns, closed.far_wake_turns) == (5.0, 0)
+    assert wf.RelaxationWake(**given, far_wake_turns=2).resolved("hover").far_wake_turns == 2
 
 
 def test_an_option_left_open_is_no_number_for_the_core(uh60a):

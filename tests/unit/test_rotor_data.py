@@ -87,7 +87,7 @@ def test_sections_along_the_span_are_refused_by_the_key_the_file_has(tmp_path):
 @pytest.mark.parametrize(
     ("old", "new", "named"),
     [
-        ('geometry = { columns = {', 'geometry = [1, 2] # {', "rotor.blade.geometry"),
+        ("geometry = { columns = {", "geometry = [1, 2] # {", "rotor.blade.geometry"),
         ("[rotor.blade]", "lag_damper = 3\n[rotor.blade]", "rotor.lag_damper"),
         ('omega = "1250 rpm"', 'omega = "4000 rpm"', "rotor.omega"),
         ("n_blades = 2", "n_blades = 0", "rotor.n_blades"),
@@ -193,3 +193,21 @@ def test_text_that_is_not_utf8_is_named_with_its_place(tmp_path):
     path = rotor(tmp_path)
     path.write_bytes(path.read_text().replace("section", "Flügel").encode("latin-1"))
     refused(path, "rotor.toml", "UTF-8", "line 14")
+
+
+def test_a_deck_is_held_beyond_its_mach_numbers(tmp_path):
+    # the tip moves at Mach 0.44: a deck that is the same at every Mach number gives the same thrust with one column or three
+    thrusts = [
+        wf.tunnel(of_deck(tmp_path, deck(mach=mach)), "8 deg", inflow="annular").thrust
+        for mach in ((0, 0.5, 1), (0, 0.8), (0.2,))
+    ]
+    assert thrusts[1:] == pytest.approx(thrusts[:1] * 2, rel=1e-12)
+    assert thrusts[0] > 100.0
+
+
+def test_a_file_that_cannot_be_one_is_refused_in_a_short_line(tmp_path):
+    refused(rotor(tmp_path, DECK.replace("deck", "a" * 5000)), "rotor.airfoil.c81", "5004 characters")
+    refused(rotor(tmp_path, DECK.replace("deck.c81", "/dev/zero")), "/dev/zero", "no such file")
+    with (tmp_path / "deck.c81").open("wb") as stream:
+        stream.truncate(1 << 30)
+    refused(rotor(tmp_path, DECK), "deck.c81", "larger than 32 MiB")

@@ -34,6 +34,15 @@ polar = {{ lift_curve_slope = "5.73 1/rad", cd = [0.01, 0.0, 0.0] }}
 """
 
 
+HEAVY = """
+[condition]
+weight = { value = 9000.0, unit = "N", source = "test", confidence = "A" }
+[sources.test]
+text = "A test"
+references = []
+"""
+
+
 def written(folder, root="flapping", e=0.0, mass='flap_inertia = "150 kg m2"', text=SHORT):
     path = folder / "rotor.toml"
     path.write_text(text.format(root=root, e=e, mass=mass))
@@ -83,7 +92,7 @@ def test_power_is_that_of_the_hub_loads():
 
 def test_a_positive_shaft_angle_meets_the_air_from_below():
     angles = {
-        angle: wf.tunnel(CARADONNA, speed="20 m/s", shaft_angle=angle, inflow="dynamic")
+        angle: wf.tunnel(CARADONNA, collective="8 deg", speed="20 m/s", shaft_angle=angle, inflow="dynamic")
         for angle in ("-5 deg", "5 deg")
     }
     assert angles["5 deg"].data.mu_z > 0 > angles["-5 deg"].data.mu_z
@@ -96,7 +105,10 @@ def test_a_positive_shaft_angle_meets_the_air_from_below():
 
 def test_higher_harmonics_turn_the_blade_as_asked():
     pitch = wf.tunnel(
-        CARADONNA, inflow="dynamic", higher_harmonics=[{"order": 3, "amplitude": "0.8 deg", "phase": "300 deg"}]
+        CARADONNA,
+        "8 deg",
+        inflow="dynamic",
+        higher_harmonics=[{"order": 3, "amplitude": "0.8 deg", "phase": "300 deg"}],
     ).data.theta
     expected = np.radians(8.0) + np.radians(0.8) * np.cos(3 * pitch.azimuth - np.radians(300))
     assert np.allclose(pitch, expected, atol=1e-12)
@@ -174,6 +186,68 @@ def test_dynamic_inflow_knows_the_windmill_brake_state_and_where_it_begins(tmp_p
         wf.tunnel(path, ct=ct, climb=f"{-2.0005 * np.sqrt(ct / 2) * tip_speed} m/s", inflow="dynamic")
 
 
+def test_a_rotor_of_which_nothing_is_asked_carries_its_aircraft_without_flapping():
+    # the report's case: a wind of 80 kt and nothing else ended at -27.5 kN of thrust
+    stand = wf.tunnel("uh60a", speed="80 kt", inflow="dynamic")
+    weight = wf.load_aircraft("uh60a").condition.weight
+    assert stand.thrust == pytest.approx(weight, rel=1e-9)
+    assert np.abs(stand.flapping[1:]).max() < 1e-9
+    assert [text.split(" = ")[0] for text in stand.assumed] == ["thrust", "no first-harmonic flapping"]
+    assert all(text in stand.table() and text in stand.data.attrs["assumed"] for text in stand.assumed)
+    # the same asked for by name is the same, and nothing is assumed
+    asked = wf.tunnel("uh60a", speed="80 kt", inflow="dynamic", thrust=f"{weight} N", flapping="zero")
+    assert np.array_equal(asked.x, stand.x)
+    assert asked.assumed == () and asked.data.attrs["assumed"] == ""
+    # without a wind across the shaft there is nothing to flap from: cyclic pitch stays zero
+    hover = wf.tunnel("uh60a", inflow="dynamic")
+    assert hover.thrust == pytest.approx(weight, rel=1e-9)
+    assert (hover.theta_1c, hover.theta_1s) == pytest.approx((0.0, 0.0), abs=1e-12) and len(hover.assumed) == 1
+
+
+def test_a_rotor_file_without_a_weight_has_a_stated_blade_loading(tmp_path):
+    flapping = wf.tunnel(written(tmp_path), speed="30 m/s", inflow="dynamic")
+    assert float(flapping.data.ct_sigma) == pytest.approx(0.07, rel=1e-9)
+    assert np.abs(flapping.flapping[1:]).max() < 1e-9
+    assert "0.07" in flapping.assumed[0]
+    # blades that cannot flap have their hub moments taken away instead
+    clamped = wf.tunnel(CARADONNA, speed="20 m/s", inflow="dynamic")
+    assert float(clamped.data.ct_sigma) == pytest.approx(0.07, rel=1e-9)
+    assert np.abs(clamped.hub_moment[:2]).max() < 1e-6 * clamped.torque
+    assert clamped.assumed[1].startswith("no hub moments")
+    # a weight in the file goes before
+    heavy = tmp_path / "heavy.toml"
+    heavy.write_text(SHORT.format(root="flapping", e=0.0, mass='flap_inertia = "150 kg m2"') + HEAVY)
+    stand = wf.tunnel(heavy, speed="30 m/s", inflow="dynamic")
+    assert stand.thrust == pytest.approx(9000.0, rel=1e-9)
+    assert stand.assumed[0].startswith("thrust = 9000 N")
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        {"collective": "8 deg"},
+        {"ct": 0.005},
+        {"thrust": "9 kN"},
+        {"torque": "2 kN m"},
+        {"collective": "8 deg", "lateral_cyclic": "1 deg"},
+    ],
+)
+def test_what_is_given_is_not_added_to(given, tmp_path):
+    stand = wf.tunnel(written(tmp_path), speed="30 m/s", inflow="dynamic", **given)
+    assert stand.assumed == ()
+    cyclic = np.radians(1.0) if "lateral_cyclic" in given else 0.0
+    assert (stand.theta_1c, stand.theta_1s) == pytest.approx((cyclic, 0.0), abs=1e-12)
+    # a collective alone is the only thing solved for: pitch is as typed
+    if "collective" in given:
+        assert stand.theta_0 == pytest.approx(np.radians(8.0), abs=1e-12)
+
+
+def test_cyclic_pitch_that_is_given_is_kept_where_the_load_is_assumed(tmp_path):
+    stand = wf.tunnel(written(tmp_path), speed="30 m/s", longitudinal_cyclic="-3 deg", inflow="dynamic")
+    assert np.degrees(stand.theta_1s) == pytest.approx(-3.0, abs=1e-12)
+    assert len(stand.assumed) == 1 and float(stand.data.ct_sigma) == pytest.approx(0.07, rel=1e-9)
+
+
 def test_weissinger_wings_have_the_known_lift():
     slope = wf.wing(6.0, 1.0, "5.7106 deg").cl / np.radians(5.7106)
     assert slope == pytest.approx(4.1743, abs=1e-4)
@@ -183,9 +257,9 @@ def test_weissinger_wings_have_the_known_lift():
 
 def test_weissinger_lifts_less_than_the_lifting_line_on_a_short_blade():
     # flow tangency at 3/4 chord: some per cent less lift at an aspect ratio of six, the same rotor otherwise
-    wake = wf.RelaxationWake(turns=2, far_wake_turns=2, relaxation=0.3, n_stations=12)
-    line = wf.tunnel(CARADONNA, inflow=wake)
-    weissinger = wf.tunnel(CARADONNA, inflow=wake, blade_model="weissinger")
+    wake = wf.RelaxationWake(turns=2, n_stations=12)
+    line = wf.tunnel(CARADONNA, "8 deg", inflow=wake)
+    weissinger = wf.tunnel(CARADONNA, "8 deg", inflow=wake, blade_model="weissinger")
     assert 0.85 < weissinger.ct / line.ct < 0.98
     with pytest.raises(wf.InputError, match="free wake"):
         wf.tunnel(CARADONNA, inflow="dynamic", blade_model="weissinger")
@@ -206,7 +280,8 @@ def test_weissinger_lifts_less_than_the_lifting_line_on_a_short_blade():
         ({"density": "1.2"}, "density"),
         ({"revolutions": 3, "inflow": "dynamic"}, "revolutions"),
         ({"ct": "much"}, "ct"),
-        ({"collective_at": "0.75"}, "collective_at"),
+        ({"collective": "8 deg", "collective_at": "0.75"}, "collective_at"),
+        ({"thrust": "9 kN", "collective_at": "0.75 R"}, "collective_at"),
     ],
 )
 def test_bad_requests_name_the_field(given, named):

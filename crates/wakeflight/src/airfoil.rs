@@ -258,13 +258,17 @@ mod tests {
     use super::*;
     use crate::numerics::scalar::Dual;
 
-    fn tables() -> AirfoilTables {
-        // different, uneven axes: what a table of measured data looks like
-        let grid = |x: &[f64], y: &[f64], f: fn(f64, f64) -> f64| Grid {
+    /// Table of `f` (angle [rad], Mach number) at angles `x` [deg] and Mach numbers `y`.
+    fn grid(x: &[f64], y: &[f64], f: fn(f64, f64) -> f64) -> Grid {
+        Grid {
             x: x.iter().map(|d| d.to_radians()).collect(),
             y: y.to_vec(),
             values: x.iter().map(|&a| y.iter().map(|&m| f(a.to_radians(), m)).collect()).collect(),
-        };
+        }
+    }
+
+    fn tables() -> AirfoilTables {
+        // different, uneven axes: what a table of measured data looks like
         AirfoilTables {
             cl: grid(&[-180., -172.5, -49., -3., 0.5, 12., 90., 180.], &[0., 0.3, 0.75, 1.], |a, m| {
                 a.sin() * (1. + m)

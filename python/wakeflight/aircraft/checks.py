@@ -10,8 +10,10 @@ from typing import Any
 
 from ..errors import InputError
 from ..units import STANDARD_GRAVITY, shown
+from .doubts import doubts_of_aircraft
 from .mass import airframe_inertia, blade_mass
 from .rotor_checks import SPEED_OF_SOUND, check_rotor
+from .rotor_doubts import in_grid, interpolated
 from .schema import AircraftFile, Loading
 from .sections import LARGEST_COEFFICIENT, PLAUSIBLE_SLOPES, check_sections, tip_mach_warnings
 
@@ -54,7 +56,8 @@ def check_aircraft(spec: AircraftFile, parts: dict[str, Any], path: Path) -> lis
     warnings += check_rotor(spec.rotor, parts["blade"], parts["lag_damper"], sections, in_rotor)
     fastest = float(spec.rotor.omega * spec.rotor.radius + spec.condition.speed) / SPEED_OF_SOUND
     warnings += [
-        f"rotor.airfoil: {text}" for text in tip_mach_warnings(sections, fastest, "the advancing tip at condition.speed")
+        f"rotor.airfoil: {text}"
+        for text in tip_mach_warnings(sections, fastest, "the advancing tip at condition.speed")
     ]
     _masses(spec, parts, refuse)
     _rigging(spec, refuse)
@@ -62,11 +65,11 @@ def check_aircraft(spec: AircraftFile, parts: dict[str, Any], path: Path) -> lis
         if parts[name] is not None:
             warnings += _surface(name, getattr(spec, name).aerodynamics, parts[name])
     if parts["fuselage"] is not None:
-        _fuselage(spec, parts["fuselage"])
+        warnings += _fuselage(spec, parts["fuselage"])
     if spec.tail_rotor is not None:
         warnings += _tail_rotor(spec, refuse)
     _interference(spec, parts["interference"])
-    return warnings + _unused(spec)
+    return [*warnings, *doubts_of_aircraft(spec, parts), *_unused(spec)]
 
 
 def _masses(spec: AircraftFile, parts: dict[str, Any], refuse: Any) -> None:
@@ -124,12 +127,16 @@ def _rigging(spec: AircraftFile, refuse: Any) -> None:
         if not own * sign > 0.0:
             way = "raise" if sign > 0.0 else "lower"
             side = ("right", "aft", "up", "right")[i]
-            raise refuse("rigging.matrix", f"{own:g} rad/m from {stick} to {pitch}", f"{stick} {side} must {way} {pitch}")
+            raise refuse(
+                "rigging.matrix", f"{own:g} rad/m from {stick} to {pitch}", f"{stick} {side} must {way} {pitch}"
+            )
         swings = [gain * travel for gain, travel in zip(rigging.matrix[i], rigging.stick_travel, strict=True)]
         lowest = rigging.offset[i] + sum(min(swing, 0.0) for swing in swings)
         highest = rigging.offset[i] + sum(max(swing, 0.0) for swing in swings)
         if max(-lowest, highest) > STEEPEST_PITCH:
-            given = f"{pitch} from {math.degrees(lowest):.4g} to {math.degrees(highest):.4g} deg over the sticks' travel"
+            given = (
+                f"{pitch} from {math.degrees(lowest):.4g} to {math.degrees(highest):.4g} deg over the sticks' travel"
+            )
             raise refuse("rigging", given, "must stay within +-60 deg")
 
 
@@ -144,7 +151,7 @@ def _surface(name: str, table: Any, surface: dict[str, Any]) -> list[str]:
                 raise table.error(f"{name} cd", given, "drag must not be negative: it would drive the aircraft")
     half = math.radians(8.0)
     curve = surface["cl"]
-    low, high = (_interpolated(curve["x"], curve["y"], angle) for angle in (-half, half))
+    low, high = (interpolated(curve["x"], curve["y"], angle) for angle in (-half, half))
     slope = (high - low) / (2.0 * half)
     if not slope > 0.0:
         raise table.error(f"{name} cl", f"{slope:.3g} per rad about 0 deg", "lift slope must be positive")
@@ -153,7 +160,7 @@ def _surface(name: str, table: Any, surface: dict[str, Any]) -> list[str]:
     return []
 
 
-def _fuselage(spec: AircraftFile, loads: dict[str, Any]) -> None:
+def _fuselage(spec: AircraftFile, loads: dict[str, Any]) -> list[str]:
     """Drag that brakes at every angle (a body takes energy from no steady stream); loads within those of the whole disk."""
     table = spec.fuselage.aerodynamics
     names = {"drag": "Dq", "lift": "Lq", "side": "Yq", "pitching": "Mq", "rolling": "Rq", "yawing": "Nq"}
@@ -170,13 +177,37 @@ def _fuselage(spec: AircraftFile, loads: dict[str, Any]) -> None:
                     raise table.error(column, given, "drag must not be negative: it would drive the aircraft")
                 if not abs(value) <= largest:
                     raise table.error(column, given, f"must lie within the rotor's {what}, {largest:.4g} {unit}")
+    warnings = []
+    # a body blown at from below is lifted, from one side pushed to the other: over 10 deg either way of straight ahead
+    small = math.radians(10.0)
+    lift = [in_grid(loads["lift"], angle, 0.0) for angle in (-small, small)]
+    if lift[1] < lift[0]:
+        warnings.append(
+            f"fuselage: lift falls from {lift[0]:.3g} to {lift[1]:.3g} m2 between -10 and 10 deg of incidence"
+        )
+    push = [
+        in_grid(loads["side"], 0.0, angle) * math.cos(angle) - in_grid(loads["drag"], 0.0, angle) * math.sin(angle)
+        for angle in (-small, small)
+    ]
+    if push[1] > push[0]:
+        warnings.append(
+            f"fuselage: side force grows from {push[0]:.3g} to {push[1]:.3g} m2 between -10 and 10 deg of sideslip: "
+            "it pulls into the wind"
+        )
+    return warnings
 
 
 def _tail_rotor(spec: AircraftFile, refuse: Any) -> list[str]:
     tail = spec.tail_rotor
     assert tail is not None
     if not tail.radius < spec.rotor.radius:
-        raise refuse("tail_rotor.radius", f"{tail.radius:g} m", f"must be below the main rotor's, {spec.rotor.radius:.4g} m")
+        raise refuse(
+            "tail_rotor.radius", f"{tail.radius:g} m", f"must be below the main rotor's, {spec.rotor.radius:.4g} m"
+        )
+    for factor, where in zip(tail.fin_blockage, ("at rest", "in flight"), strict=False):
+        if not 0.0 < factor <= 1.0:
+            allowed = "must lie above 0 and at most 1: the fin in its way takes thrust away"
+            raise refuse("tail_rotor.fin_blockage", f"{factor:g} {where}", allowed)
     tip_mach = tail.omega * tail.radius / SPEED_OF_SOUND
     if not tip_mach < 1.0:
         raise refuse("tail_rotor.omega", f"{tail.omega:g} rad/s", f"tip at Mach {tip_mach:.2f}; must stay below 1")
@@ -187,7 +218,9 @@ def _tail_rotor(spec: AircraftFile, refuse: Any) -> list[str]:
     least, at = min((d0 + d1 * angle + d2 * angle**2, angle) for angle in angles)
     if least < 0.0:
         given = f"{least:.4g} at {math.degrees(at):.4g} deg"
-        raise refuse("tail_rotor.cd_polar", given, "drag must not be negative within +-30 deg: it would drive the rotor")
+        raise refuse(
+            "tail_rotor.cd_polar", given, "drag must not be negative within +-30 deg: it would drive the rotor"
+        )
     low, high = PLAUSIBLE_SLOPES
     if not low <= tail.lift_curve_slope <= high:
         return [f"tail_rotor.lift_curve_slope {tail.lift_curve_slope:.3g} per rad; sections have {low:g} to {high:g}"]
@@ -210,7 +243,9 @@ def _interference(spec: AircraftFile, wash: dict[str, Any] | None) -> None:
     # in hover the fuselage stands in the wake, which goes down
     if min(wash["ekz_fuselage"]["values"][0]) < 0.0:
         given = f"{min(wash['ekz_fuselage']['values'][0]):g} at 0 deg"
-        raise group.rotor_wash.error("ekz_fus", given, "must not be negative: in hover the wake goes down on the fuselage")
+        raise group.rotor_wash.error(
+            "ekz_fus", given, "must not be negative: in hover the wake goes down on the fuselage"
+        )
     for name, column in (("downwash", "eps_of_alpha"), ("sidewash", "sigma_of_psi")):
         curve = wash[name]
         _covers(group.fuselage_wash, "angle", curve["x"])
@@ -222,7 +257,9 @@ def _interference(spec: AircraftFile, wash: dict[str, Any] | None) -> None:
         _covers(table, axis, curve["x"])
         for value in curve["y"]:
             if not 0.0 <= value <= LARGEST_RATIO:
-                raise table.error("q_ratio", f"{value:g}", f"must lie between 0 and {LARGEST_RATIO:g}: a ratio of squares")
+                raise table.error(
+                    "q_ratio", f"{value:g}", f"must lie between 0 and {LARGEST_RATIO:g}: a ratio of squares"
+                )
 
 
 def _covers(table: Any, name: str, angles: Sequence[float]) -> None:
@@ -235,18 +272,12 @@ def _covers(table: Any, name: str, angles: Sequence[float]) -> None:
 def _unused(spec: AircraftFile) -> list[str]:
     """Keys that say something to a part that is switched off."""
     given = []
-    if spec.stabilator is not None and spec.stabilator.schedule is None and spec.stabilator.incidence_limits is not None:
+    if (
+        spec.stabilator is not None
+        and spec.stabilator.schedule is None
+        and spec.stabilator.incidence_limits is not None
+    ):
         given.append("stabilator.incidence_limits: not used with a fixed incidence")
     if spec.tail_rotor is not None and spec.tail_rotor.coning is None and spec.tail_rotor.tan_delta3 is not None:
         given.append("tail_rotor.tan_delta3: not used without tail_rotor.coning")
     return given
-
-
-def _interpolated(x: Sequence[float], y: Sequence[float], at: float) -> float:
-    """Piecewise linear, held beyond the ends."""
-    if at <= x[0]:
-        return y[0]
-    for i in range(len(x) - 1):
-        if at <= x[i + 1]:
-            return y[i] + (at - x[i]) / (x[i + 1] - x[i]) * (y[i + 1] - y[i])
-    return y[-1]

@@ -149,6 +149,10 @@ def structure_data(rotor: Any) -> dict[str, list[float]]:
         "i_theta": ("I_theta_cg", "kg m", 0.0),
         "x_cg": (x_cg, "m", -math.inf),
     }
+    if table.has("x_cg_straight"):
+        # one of the two is used, both are checked
+        table.column("x_cg_straight", "m")
+        table.column("x_cg", "m")
     structure: dict[str, list[float]] = {"r_in": r_in, "r_out": r_out}
     for key, (base, unit, low) in columns.items():
         values = table.column(base, unit)

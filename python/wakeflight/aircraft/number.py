@@ -103,6 +103,8 @@ def _reader(si_unit: str, low: float, high: float, above: float | None) -> Calla
         number = convert(_real(value), unit, si_unit)
         if above is not None and not number > above:
             raise ValueError(f"must be above {shown(above, unit)}")
+        if number > high and not math.isfinite(low):
+            raise ValueError(f"must be at most {shown(high, unit)}")
         if not low <= number <= high:
             raise ValueError(f"must lie between {shown(low, unit)} and {shown(high, unit)}")
         return number

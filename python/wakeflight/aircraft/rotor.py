@@ -11,7 +11,7 @@ from types import SimpleNamespace
 from typing import Any
 
 from ..errors import InputError
-from ..units import quantity
+from ..units import STANDARD_GRAVITY, quantity
 from . import tables
 from .core_data import STRUCTURE_COLUMNS, blade_data, structure_data
 from .core_data import lag_damper_data as damper
@@ -36,6 +36,8 @@ class Rotor:
     references: tuple[str, ...] = ()
     fixed_reference_pitch: bool = False
     warnings: tuple[str, ...] = ()
+    weight: float | None = None
+    """Weight [N] that the aircraft, or the `[condition]` of the rotor file, names; None where there is none."""
 
     @property
     def n_blades(self) -> int:
@@ -121,8 +123,9 @@ def _of_aircraft(aircraft: Aircraft) -> Rotor:
     data |= {"position": [0.0, 0.0, 0.0], "shaft_tilt_forward": 0.0, "shaft_tilt_lateral": 0.0}
     data["blade"].setdefault("rigid", False)
     settings = aircraft.discretisation
+    weight = aircraft.default("gross_mass") * STANDARD_GRAVITY
     references, warnings = aircraft.references, aircraft.warnings
-    return Rotor(aircraft.name, aircraft.path, data, settings, references, fixed_reference_pitch=True, warnings=warnings)
+    return Rotor(aircraft.name, aircraft.path, data, settings, references, True, warnings, weight)
 
 
 def _of_file(path: Path) -> Rotor:
@@ -148,7 +151,8 @@ def _of_file(path: Path) -> Rotor:
     keys = {key for source in spec.sources.values() for key in source.references}
     fixed = spec.discretisation.reference_pitch is not None
     warnings = tuple(f"{path.name}: {text}" for text in _checked(spec, core, path))
-    return Rotor(spec.name, path, core, _settings(spec, path), tuple(sorted(keys)), fixed, warnings)
+    weight = None if spec.condition is None or spec.condition.weight is None else float(spec.condition.weight)
+    return Rotor(spec.name, path, core, _settings(spec, path), tuple(sorted(keys)), fixed, warnings, weight)
 
 
 def _checked(spec: RotorFile, core: dict[str, Any], path: Path) -> list[str]:
@@ -163,7 +167,9 @@ def _checked(spec: RotorFile, core: dict[str, Any], path: Path) -> list[str]:
         if isinstance(table, tables.TableFile):
             return table.error(f"rotor.airfoil.{name}", value, allowed)
         file = path if group.airfoil.c81 is None else group.airfoil.c81.path
-        return InputError.of(f"rotor.airfoil.{'polar' if group.airfoil.polar else 'c81'} {name}", value, allowed, file=file)
+        return InputError.of(
+            f"rotor.airfoil.{'polar' if group.airfoil.polar else 'c81'} {name}", value, allowed, file=file
+        )
 
     sections = {name: core["airfoil"][name] for name in ("cl", "cd", "cm")}
     notes = [] if group.airfoil.c81 is None else list(group.airfoil.c81.notes)

@@ -15,6 +15,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, ValidationInfo, model_validator
 
+from ..text import file_beside
 from .airfoils import Grid, analytic_polar, checked, read_c81
 from .number import Noted, Provenance, provenance_of, scalar, vector
 from .schema import (
@@ -52,7 +53,7 @@ def _deck(entry: Any, info: ValidationInfo) -> Deck:
     name = entry.get("table")
     if not isinstance(name, str) or not name:
         raise ValueError(f"must be {allowed}")
-    path = Path((info.context or {}).get("directory", Path())) / name
+    path = file_beside(Path((info.context or {}).get("directory", Path())), name)
     grids, notes = read_c81(path)
     for key, grid in grids.items():
         checked(key, grid)

@@ -112,7 +112,9 @@ class Airfoil(Group):
 def one_section(entry: object) -> object:
     """Refuse a list of sections: the model takes one along the whole span."""
     if isinstance(entry, list):
-        raise ValueError(f"lists {len(entry)} sections; one section along the span is all there is: write one [rotor.airfoil]")
+        raise ValueError(
+            f"lists {len(entry)} sections; one section along the span is all there is: write one [rotor.airfoil]"
+        )
     return entry
 
 

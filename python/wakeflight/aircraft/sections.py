@@ -24,6 +24,12 @@ LOW_MACH = 0.3
 SUBSONIC = 0.6
 """Mach number up to which the lift of every section of a blade grows with the angle of attack."""
 
+LEAST_DRAG = 0.0025
+"""Least cd about zero lift: a smooth plate, laminar on both sides, has 2.66 / sqrt(Re), 0.0027 at a million."""
+
+PLATE_DRAG = 1.0
+"""Drag coefficient across the stream that every section exceeds: a plate has 2, a short one between its ends 1.2."""
+
 GAP = 0.01
 """Difference of a coefficient between -180 and 180 deg, the same attitude, beyond the rounding of a printed table."""
 
@@ -89,7 +95,9 @@ def _lift(grid: Grid, refuse: Refuse) -> list[str]:
         slope = lift_slope(grid, column)
         if mach > SUBSONIC and column > 0:
             if slope <= 0.0:
-                warnings.append(f"cl falls with the angle of attack at zero lift and Mach {mach:g}: {slope:.3g} per rad")
+                warnings.append(
+                    f"cl falls with the angle of attack at zero lift and Mach {mach:g}: {slope:.3g} per rad"
+                )
             continue
         # the flow turns against the lift: attached, lift grows with the angle of attack
         if not slope > 0.0:
@@ -109,7 +117,9 @@ def _moment(grid: Grid, refuse: Refuse) -> list[str]:
     signs = [_at(grid["x"], [row[0] for row in grid["values"]], angle) for angle in (-0.5 * math.pi, 0.5 * math.pi)]
     if signs[0] < -0.1 and signs[1] > 0.1:
         given = f"{signs[0]:g} at -90 deg, {signs[1]:g} at 90 deg"
-        raise refuse("cm", given, "must be nose down across the stream at 90 deg, nose up at -90 deg (nose up positive)")
+        raise refuse(
+            "cm", given, "must be nose down across the stream at 90 deg, nose up at -90 deg (nose up positive)"
+        )
     if signs[0] < -0.1 or signs[1] > 0.1:
         return [f"cm is {signs[0]:g} at -90 deg and {signs[1]:g} at 90 deg; a plate has about 0.5 and -0.5"]
     return []
@@ -132,7 +142,9 @@ def _doubtful(grids: dict[str, Grid], cd_increment: float) -> list[str]:
         gaps = [abs(a - b) for a, b in zip(grid["values"][0], grid["values"][-1], strict=True)]
         if max(gaps) > GAP:
             mach = grid["y"][gaps.index(max(gaps))]
-            warnings.append(f"{name} differs by {max(gaps):.3g} between -180 and 180 deg, the same attitude, at Mach {mach:g}")
+            warnings.append(
+                f"{name} differs by {max(gaps):.3g} between -180 and 180 deg, the same attitude, at Mach {mach:g}"
+            )
     for first, second in (("cl", "cd"), ("cl", "cm"), ("cd", "cm")):
         if grids[first] == grids[second] and any(map(any, grids[first]["values"])):
             warnings.append(f"{first} and {second} are the same table")
@@ -140,6 +152,12 @@ def _doubtful(grids: dict[str, Grid], cd_increment: float) -> list[str]:
     attached = [row for alpha, row in zip(drag["x"], drag["values"], strict=True) if abs(alpha) <= math.radians(10.0)]
     if cd_increment == 0.0 and attached and not any(map(any, attached)):
         warnings.append("cd is zero within 10 deg: the blades have no profile drag")
+    elif attached and min(map(min, attached)) + cd_increment < LEAST_DRAG:
+        least = min(map(min, attached)) + cd_increment
+        warnings.append(f"cd down to {least:.3g} within 10 deg; a smooth plate has {LEAST_DRAG:g} or more")
+    across = min(_at(drag["x"], [row[0] for row in drag["values"]], angle) for angle in (-0.5 * math.pi, 0.5 * math.pi))
+    if across < PLATE_DRAG:
+        warnings.append(f"cd is {across:.3g} across the stream; a plate has 1.2 to 2")
     return warnings
 
 

@@ -12,7 +12,7 @@ from typing import Annotated, Any
 from pydantic import BeforeValidator, ValidationInfo
 
 from ..errors import InputError
-from ..text import read_text
+from ..text import file_beside, read_text
 from ..units import convert
 from .number import Provenance, provenance_of
 
@@ -223,7 +223,7 @@ def _validate(entry: Any, info: ValidationInfo) -> TableFile:
         raise ValueError(f"must be {allowed}")
     directory = (info.context or {}).get("directory", Path())
     published = Provenance(name, "table", provenance.sources, provenance.confidence, provenance.note)
-    return read_csv(Path(directory) / name, published)
+    return read_csv(file_beside(Path(directory), name), published)
 
 
 Table = Annotated[TableFile, BeforeValidator(_validate)]
@@ -279,6 +279,8 @@ def by_mach(table: TableFile) -> dict[str, list[Any]]:
         raise table.error("M...", "missing", "columns by Mach number are needed, such as M0.0, M0.3")
     ascending(table, "M...", mach)
     if mach[0] < 0.0 or mach[-1] > HIGHEST_MACH:
-        raise table.error("M...", f"{mach[0]:g} .. {mach[-1]:g}", f"Mach numbers must lie between 0 and {HIGHEST_MACH:g}")
+        raise table.error(
+            "M...", f"{mach[0]:g} .. {mach[-1]:g}", f"Mach numbers must lie between 0 and {HIGHEST_MACH:g}"
+        )
     values = [[table.columns[header][row] for header in headers] for row in range(len(alpha))]
     return {"x": alpha, "y": mach, "values": values}

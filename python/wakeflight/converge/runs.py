@@ -12,7 +12,7 @@ import numpy as np
 
 from ..condition import FlightCondition
 from ..flight import Flight, flown_steps, fly
-from ..inflow import DynamicInflow, RelaxationWake, trim_model
+from ..inflow import DynamicInflow, trim_model
 from ..maneuvers import Maneuver
 from ..model import Model, flight_regime
 from ..modes import blade_modes
@@ -33,8 +33,6 @@ class Quantity(NamedTuple):
 
 
 DEGREES = 180.0 / np.pi
-UNSOLVED = 1e-3
-"""Residual of the circulation over its largest value from which a trim is said not to be solved."""
 
 TRIM_QUANTITIES = (
     Quantity("power", "hp", 1.0 / HORSEPOWER),
@@ -127,7 +125,7 @@ class Trimming:
             control_tolerance=case.control_tolerance,
         )
         values = np.array([[q.factor * value for q, value in zip(TRIM_QUANTITIES, trim_values(start), strict=True)]])
-        cost = Outcome(values, np.zeros(1), *clock.read(), dict(start.counters), unsolved(start))
+        cost = Outcome(values, np.zeros(1), *clock.read(), dict(start.counters))
         self._known.append((key, start, cost))
         return start, cost
 
@@ -302,19 +300,6 @@ def build(case: Case, condition: FlightCondition) -> Model:
         return Model.build(case.flying, condition, inflow)
     except ValueError as reason:
         raise InputError(f"{case.flying.path}: {reason}") from None
-
-
-def unsolved(start: Trim) -> tuple[str, ...]:
-    """What must be said of a trim whose circulation and near wake do not agree at some azimuths (beyond stall, for instance)."""
-    if not isinstance(start.inflow, RelaxationWake) or start.wake is None:
-        return ()
-    model, wake = start.model, start.wake
-    q, q_dot = model.core.trim_motion(start.problem, start.x, wake.n)
-    held = (start.state(), start.stick_si, np.zeros(4), wake.psi, q, q_dot, wake.lambda_far, wake.circulation)
-    circulation, _, residual, failed = model.core.solve_circulation(model.wake_options, *held)
-    if not failed or residual < UNSOLVED * float(np.abs(circulation).max()):
-        return ()
-    return (f"circulation and near wake do not agree at {failed} of {wake.n} azimuths, by {residual:.2g} m2/s",)
 
 
 def trim_values(start: Trim) -> list[float]:

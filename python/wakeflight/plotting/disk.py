@@ -13,6 +13,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
+from ..disk import area_weights, element_widths, first_harmonics
 from . import style
 
 if TYPE_CHECKING:
@@ -70,21 +71,9 @@ def difference(field: xr.DataArray, reference: xr.DataArray) -> xr.DataArray:
 
 
 def harmonics(field: xr.DataArray) -> tuple[float, float, float]:
-    """Mean and first harmonics of a disk map, area-weighted: field ~ f0 + (f1c cos psi + f1s sin psi) r/R.
-
-    f0 is the area mean; f1c = int(f r cos psi dA) / int(r^2 cos^2 psi dA), f1s likewise with the sine.
-    Ring widths from the mid-points between stations, closed by the symmetric end rings (at most to r/R = 1).
-    """
+    """Mean and first harmonics of a disk map (psi, station): see `wakeflight.disk.first_harmonics`."""
     psi, station = field[field.dims[0]].values, field[field.dims[1]].values
-    middle = (station[1:] + station[:-1]) / 2
-    edges = np.concatenate([[2 * station[0] - middle[0]], middle, [min(2 * station[-1] - middle[-1], 1.0)]])
-    area = np.diff(edges) * station
-    values = field.values
-    cos, sin = np.cos(psi)[:, None], np.sin(psi)[:, None]
-    mean = (values * area).sum() / (area.sum() * psi.size)
-    f_1c = (values * station * cos * area).sum() / ((station * cos) ** 2 * area).sum()
-    f_1s = (values * station * sin * area).sum() / ((station * sin) ** 2 * area).sum()
-    return float(mean), float(f_1c), float(f_1s)
+    return first_harmonics(field.values, psi, station, area_weights(station, element_widths(station)))
 
 
 def draw(

@@ -16,7 +16,10 @@ SHAPES_CAPTION = (
     " deflection, and elastic twist (nose up) in degrees at a tip deflection of 0.1 R (each on its own "
     "scale)."
 )
-FAN_CAPTION = "Blade frequencies over rotor speed; dashed: harmonics of the rotor speed."
+FAN_CAPTION = (
+    "Blade frequencies over rotor speed, named by what each mode mostly is at the nominal speed; dashed: harmonics of the rotor"
+    " speed."
+)
 
 
 @styled
@@ -71,13 +74,14 @@ def shapes(
 def fan_plot(
     speed: np.ndarray,
     frequencies: np.ndarray,
+    names: Sequence[str] | None = None,
     reference: dict[str, tuple[np.ndarray, np.ndarray]] | None = None,
     n_harmonics: int = 8,
 ) -> Figure:
     """Frequencies [rad/s] (n_speeds, n_modes) over rotor speed [rad/s] (n_speeds,).
 
-    Drawn in Hz over per cent of the last speed, the nominal one. `reference`: label -> (speed, frequency),
-    both in rad/s, drawn as points.
+    Drawn in Hz over per cent of the last speed, the nominal one. `names`: what each mode is at that speed. `reference`: label ->
+    (speed, frequency), both in rad/s, drawn as points.
     """
     nominal = float(speed[-1])
     figure = style.blank(4.2, width=7.2)
@@ -90,7 +94,7 @@ def fan_plot(
         if ray[-1] < top:
             axes.text(101, ray[-1], f"{n}/rev", fontsize=7, color=style.GREY, va="center")
     for k in range(frequencies.shape[1]):
-        label = f"mode {k + 1}: {frequencies[-1, k] / nominal:.3f}/rev"
+        label = f"{names[k] if names is not None else f'mode {k + 1}'}: {frequencies[-1, k] / nominal:.3f}/rev"
         axes.plot(percent, frequencies[:, k] / (2 * np.pi), color=style.COLORS[k % 7], label=label)
     for (label, (at, value)), marker in zip((reference or {}).items(), "os^Dv", strict=False):
         axes.plot(

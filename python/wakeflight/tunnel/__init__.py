@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from inspect import signature
 from pathlib import Path
@@ -16,6 +17,7 @@ from .condition import (
     StandCondition,
     air,
     control_equations,
+    filled,
     higher_harmonics,
     hub_velocity,
     rotor_speed,
@@ -75,7 +77,10 @@ def tunnel(
     ----------
     aircraft : the rotor: a loaded `Rotor` or `Aircraft`, the name of a shipped aircraft, or the path of a rotor file or an
         aircraft file. It turns counter-clockwise seen from above.
-    collective : blade pitch at `collective_at`; default 8 deg unless thrust, ct or torque is given.
+    collective : blade pitch at `collective_at`. Where neither collective, thrust, ct nor torque is given, thrust is the weight
+        that the aircraft (or the rotor file's `[condition]`) names, else C_T/sigma = 0.07; and where cyclic pitch, flapping
+        and hub moments are open too and there is a wind across the shaft, flapping is zero (hub moments, where clamped rigid
+        blades cannot flap). What was assumed is in `.assumed`, the table and the attributes.
     speed, shaft_angle : wind from the front, and tilt of the shaft, positive aft (disk met from below, as in descent);
         +90 deg is axial descent, -90 deg axial climb.
     inflow : `time-marching`, `relaxation`, `dynamic`, `annular` (hover and axial climb: blade elements and momentum ring by
@@ -86,7 +91,8 @@ def tunnel(
     collective_at : `root` (the twist of the file is added to the collective) or a radius such as "0.75 R" (the
         collective is the pitch there).
     lateral_cyclic, longitudinal_cyclic : theta_1c, theta_1s of theta = theta_0 + theta_1c cos psi + theta_1s sin psi, pitch
-        of the blade at its own azimuth (a swashplate phase does not enter); 0 if nothing is asked for.
+        of the blade at its own azimuth (a swashplate phase does not enter); 0 where a collective, thrust, ct or torque is
+        given and nothing is asked of flapping or hub moments.
     higher_harmonics : list of (order, cosine, sine) or {"order", "amplitude", "phase"}: amplitude cos(order psi - phase).
     thrust, ct, torque : find the collective for aerodynamic thrust along the shaft, its coefficient, or shaft torque
         (torque="zero": autorotation at the given rotor speed).
@@ -106,8 +112,9 @@ def tunnel(
     Returns
     -------
     Tunnel : `.ct`, `.cq`, `.cp`, `.figure_of_merit`, `.thrust`, `.torque`, `.power`, `.beta_0`, `.beta_1c`, `.beta_1s`,
-        `.theta_0`, `.theta_1c`, `.theta_1s`, `.hub_force`, `.hub_moment`, `.aero_force`, `.aero_moment`, `.settled`,
-        `.notes`, `.warnings`, `.monitors`, `.data` (xarray Dataset), `.wake_velocity(points)`, `.table()`, `.save(path)`.
+        `.theta_0`, `.theta_1c`, `.theta_1s`, `.hub_force`, `.hub_moment`, `.aero_force`, `.aero_moment`, `.assumed`,
+        `.settled`, `.notes`, `.warnings`, `.monitors`, `.data` (xarray Dataset), `.wake_velocity(points)`, `.table()`,
+        `.save(path)`.
 
     Raises `InputError` for bad input and `NumericalFailure` where no solution is found, or one beyond physics, which is then its
     `partial`. A wake that does not settle is no error: `.settled` is False, `.notes` and the means' scatter say how much it
@@ -161,15 +168,18 @@ def _prepared(aircraft: Any, inflow: Any, given: dict[str, Any]) -> tuple[Rotor,
     density, speed_of_sound = air(given["altitude"], given["density"], given["speed_of_sound"])
     roll = within("roll_rate", given["roll_rate"], "rad/s", -10.0, 10.0, "rad/s")
     pitch = within("pitch_rate", given["pitch_rate"], "rad/s", -10.0, 10.0, "rad/s")
+    velocity = hub_velocity(given["speed"], given["shaft_angle"], given["climb"])
+    asked, assumed = filled(rotor, math.hypot(velocity[0], velocity[1]), density, given)
     condition = StandCondition(
-        velocity=hub_velocity(given["speed"], given["shaft_angle"], given["climb"]),
+        velocity=velocity,
         # hub axes point aft, right, up: right side down is about -x, nose up about +y
         rates=(-roll, pitch, 0.0),
         density=density,
         speed_of_sound=speed_of_sound,
-        controls=control_equations(rotor, density, rotor.omega, given),
+        controls=control_equations(rotor, density, rotor.omega, asked),
         higher=higher_harmonics(given["higher_harmonics"], n_harmonics),
         as_given={name: value if isinstance(value, int | float) else str(value) for name, value in given.items()},
+        assumed=assumed,
     )
     model = stand_inflow(inflow).resolved(condition.regime(rotor.omega * rotor.radius))
     model.step(rotor)

@@ -14,7 +14,13 @@ from ..aircraft import Rotor
 from ..errors import InputError
 from ..units import quantity, shown
 
-DEFAULT_COLLECTIVE = "8 deg"
+BLADE_LOADING = 0.07
+"""C_T/sigma of a rotor of which nothing is asked and whose file names no weight: that of cruise, well below stall."""
+
+HEADS = ("collective", "thrust", "ct", "torque")
+"""What fixes the collective, one of them."""
+CYCLICS = ("lateral_cyclic", "longitudinal_cyclic", "flapping", "hub_roll", "hub_pitch")
+"""What fixes the cyclic pitch."""
 
 PitchHarmonic = tuple[int, float, float]
 """Order n, cosine and sine [rad] of a higher-harmonic pitch."""
@@ -35,6 +41,8 @@ class StandCondition:
     controls: tuple[tuple[str, float], tuple[str, float], tuple[str, float]]
     higher: tuple[PitchHarmonic, ...]
     as_given: dict[str, Any]
+    assumed: tuple[str, ...] = ()
+    """What was taken for granted because nothing fixes it, in words."""
 
     def mu(self, tip_speed: float) -> float:
         """Advance ratio: in-plane speed over tip speed."""
@@ -130,17 +138,49 @@ def higher_harmonics(given: Sequence[Any], n_blade_harmonics: int) -> tuple[Pitc
     return tuple(harmonics)
 
 
+def filled(
+    rotor: Rotor, in_plane: float, density: float, asked: dict[str, Any]
+) -> tuple[dict[str, Any], tuple[str, ...]]:
+    """`asked` (see `control_equations`) with what it leaves open, and what was assumed, in words.
+
+    Without a collective or a load: the weight that the file names as thrust, else the blade loading `BLADE_LOADING`. If cyclic
+    pitch, flapping and hub moments are open as well and the rotor moves in its plane at all (in_plane [m/s]): no flapping, or,
+    where clamped rigid blades cannot flap, no hub moments.
+    """
+    if any(asked[name] is not None for name in HEADS):
+        return asked, ()
+    whole, words = dict(asked), []
+    if rotor.weight is not None:
+        whole["thrust"] = f"{rotor.weight!r} N"
+        words.append(f"thrust = {shown(rotor.weight, 'N')}, the weight that the file of {rotor.name} names")
+    else:
+        tip_speed = rotor.omega * rotor.radius
+        thrust = BLADE_LOADING * rotor.solidity * density * math.pi * rotor.radius**2 * tip_speed**2
+        whole["thrust"] = f"{thrust!r} N"
+        words.append(f"C_T/sigma = {BLADE_LOADING:g}, as the file of {rotor.name} names no weight")
+    if in_plane > 0.0 and all(asked[name] is None for name in CYCLICS):
+        if rotor.discretisation.n_modes > 0:
+            whole["flapping"] = "zero"
+            words.append("no first-harmonic flapping")
+        else:
+            whole |= {"hub_roll": "zero", "hub_pitch": "zero"}
+            words.append("no hub moments: the blades do not flap")
+    return whole, tuple(words)
+
+
 def control_equations(rotor: Rotor, density: float, omega: float, asked: dict[str, Any]) -> tuple:
     """The three equations (name, SI value) that the pitch controls are found from.
 
     asked: collective, collective_at, lateral_cyclic, longitudinal_cyclic, thrust, ct, torque, flapping, hub_roll, hub_pitch.
     """
     limit = math.radians(90.0)
-    heads = [name for name in ("collective", "thrust", "ct", "torque") if asked[name] is not None]
+    heads = [name for name in HEADS if asked[name] is not None]
     if len(heads) > 1:
         raise InputError.of(
             heads[1], asked[heads[1]], f"give one of collective, thrust, ct, torque; {heads[0]} is given"
         )
+    if asked["collective"] is None and asked["collective_at"] != "root":
+        raise InputError.of("collective_at", asked["collective_at"], "belongs to a collective, and none is given")
     area = math.pi * rotor.radius**2
     dynamic = density * area * (omega * rotor.radius) ** 2
     if asked["thrust"] is not None:
@@ -152,8 +192,7 @@ def control_equations(rotor: Rotor, density: float, omega: float, asked: dict[st
         text = asked["torque"]
         first = ("torque", 0.0 if text == "zero" else quantity(text, "N m", "torque"))
     else:
-        given = DEFAULT_COLLECTIVE if asked["collective"] is None else asked["collective"]
-        pitch = within("collective", given, "rad", -limit, limit, "deg")
+        pitch = within("collective", asked["collective"], "rad", -limit, limit, "deg")
         first = ("collective", pitch - _reference_twist(rotor, asked["collective_at"]))
 
     cyclic = [name for name in ("lateral_cyclic", "longitudinal_cyclic") if asked[name] is not None]

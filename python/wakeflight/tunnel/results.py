@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..errors import InputError
+from ..modes import mode_labels
 from ..monitors import Monitor, failures, lines, variables, warnings
 from ..trim_results import HORSEPOWER
 from .solve import Revolution, Solution, by_azimuth
@@ -57,6 +58,11 @@ class Tunnel:
         """What must be said about this solution: what does not rest, and every warning."""
         return [*self.solution.notes, *self.warnings]
 
+    @property
+    def assumed(self) -> tuple[str, ...]:
+        """What was taken for granted because nothing in the request fixes it, in words."""
+        return self.model.condition.assumed
+
     @cached_property
     def monitors(self) -> tuple[Monitor, ...]:
         """What is watched of this stand, each with its values and what it says."""
@@ -92,8 +98,7 @@ class Tunnel:
         if not self.turns_kept:
             return self.azimuth, [self._periodic[name] for name in names]
         found = [self._passages(name) for name in names]
-        rows = found[0][0].ravel()
-        return self.azimuth[rows], [values.reshape(rows.size, -1) for _, values in found]
+        return self.azimuth[found[0][0].ravel()], [values.reshape(-1, values.shape[-1]) for _, values in found]
 
     def _by_azimuth(self, name: str) -> np.ndarray:
         """Mean of a quantity by azimuth (n, ...)."""
@@ -244,14 +249,8 @@ class Tunnel:
         return float(np.max(np.abs(self.model.core.trim_residual(s.problem, s.x))))
 
     def inflow_harmonics(self) -> tuple[float, float, float]:
-        """lambda_0, lambda_1c, lambda_1s: area mean and fits of r cos psi, r sin psi over the stations."""
-        lam, r = self._by_azimuth("inflow"), self.model.stations / self.radius
-        w = r * np.asarray(self.model.rotor["widths"])
-        values = [self.model.disk_mean(lam)]
-        for shape in (np.cos(self.azimuth), np.sin(self.azimuth)):
-            basis = np.outer(shape, r)
-            values.append(float(np.sum(lam * basis * w) / np.sum(basis**2 * w)))
-        return values[0], values[1], values[2]
+        """lambda_0, lambda_1c, lambda_1s of the inflow: see `disk.first_harmonics`."""
+        return self.model.first_harmonics(self._by_azimuth("inflow"))
 
     # --- wake -----------------------------------------------------------------------------------------------
 
@@ -435,10 +434,12 @@ class Tunnel:
             "prandtl_glauert": int(m.blade_model == "weissinger"),
             "blades": "flexible" if m.aircraft.flexible else "rigid",
             "n_modes": m.aircraft.discretisation.n_modes,
+            "blade_modes": mode_labels(m.aircraft),
             "blade_frequencies_per_rev": [f / m.omega for f in m.rotor["frequencies"]],
             "revolutions": len(s.revolutions),
             "averaged": self.averaged,
             "settled": int(self.settled),
+            "assumed": "; ".join(self.assumed),
             "notes": "; ".join(self.notes),
             "warnings": "\n".join(self.warnings),
             "failure": "; ".join(self.failures),
@@ -473,6 +474,7 @@ class Tunnel:
                 "inflow, blade model",
                 f"{m.inflow.name}, {m.blade_model}",
             ),
+            *(("assumed", text) for text in self.assumed),
             ("theta_0, 1c, 1s", f"{deg(self.theta_0):.3f}, {deg(self.theta_1c):.3f}, {deg(self.theta_1s):.3f} deg"),
             ("C_T, C_T/sigma", f"{self.ct:.6f}, {self.ct / sigma:.4f}{scatter}"),
             ("C_Q, figure of merit", f"{self.cq:.7f}, {self.figure_of_merit:.4f}"),

@@ -28,6 +28,7 @@ CHANGE_TOLERANCE = 1e-3
 MAX_OUTER = 15
 START = {"sweeps": 1, "max_loops": 4}
 """Relaxation that starts a marching full-span wake in axial flow: free sheets do not settle there, time means do."""
+
 SETTLED = 2e-4
 """Change of inflow over its mean per revolution below which a marching wake counts as periodic."""
 

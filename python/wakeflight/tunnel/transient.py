@@ -101,6 +101,9 @@ def transient(
     step = 2 * np.pi / model.omega / model.steps_per_revolution
     length = within("duration", duration, "s", step, LONGEST * 2 * np.pi / model.omega, "s")
     n_steps = int(np.ceil(length / step - 1e-9))
+    if moved.time[-1] > n_steps * step * (1.0 + 1e-9):
+        allowed = f"must not lie after the end of the transient at {n_steps * step:.6g} s: it would not be reached"
+        raise InputError.of("collective time", f"{moved.time[-1]:.12g} s", allowed)
     progress = progress or Silent()
     progress.phase("transient", n_steps)
     kept = Recorder()

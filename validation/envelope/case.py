@@ -1,0 +1,177 @@
+"""Trims and hands-off flights over the envelope, and random stick motions."""
+
+import numpy as np
+from envelope_runs import SPEEDS, WEIGHTS, level, one, others, random_flight, several
+
+from wakeflight.plotting import style
+from wakeflight.validate import Check, Outcome
+
+LARGEST_INFLOW = 0.3
+"""Induced velocity over the tip speed that no flight of these comes near."""
+RATE, ATTITUDE, LOAD = 8.0, 8.0, 0.3
+"""Hands off for two seconds: largest body rate [deg/s], change of attitude [deg] and of load factor."""
+RANDOM_SPEEDS = (60, 100, 140)
+N_RANDOM = 40
+
+
+def run(case):
+    given = conditions()
+    found = several(one, given)
+    random = several(random_flight, [(RANDOM_SPEEDS[i % 3], i) for i in range(N_RANDOM)])
+    flights = [f for f in found if f.get("fly")]
+    trims = [f for f in found if not f.get("fly")]
+    checks = [
+        *counted("trim", trims),
+        *counted("flight", flights),
+        *bounded("hands off", [f for f in flights if "end" in f]),
+        *held([f for f in flights if "end" in f]),
+        *bounded("random sticks", [f for f in random if "end" in f]),
+        count("random sticks: flights that stop", [f for f in random if f["failure"]], gate=False, note=told(random)),
+        *costs(found, random),
+    ]
+    return Outcome(checks, draw(found), notes(found))
+
+
+def conditions():
+    """All of them, with the marching wake also flown hands off."""
+    every = []
+    for aircraft in WEIGHTS:
+        for weight in range(3):
+            every += [level(aircraft, v, weight, "dynamic") for v in SPEEDS]
+            every += [level(aircraft, v, weight, "relaxation") for v in SPEEDS[:: 1 if weight == 1 else 2]]
+            every += [level(aircraft, v, weight, "time-marching", fly=True) for v in SPEEDS[:: 1 if weight == 1 else 4]]
+        every += [level(aircraft, v, 1, "time-marching") for v in SPEEDS[::2]]
+        every += others(aircraft, "dynamic")
+        every += others(aircraft, "relaxation", coarse=True)
+    return every
+
+
+def count(quantity, cases, gate=True, note=""):
+    """How many cases; none is allowed."""
+    return Check(quantity, len(cases), 0.0, 0.0, gate=gate, note=note)
+
+
+def told(cases, most=3):
+    """What the first few failures say."""
+    texts = [f"{name_of(f)}: {f['failure']}" for f in cases if f["failure"]]
+    return "; ".join(texts[:most]) + (f"; and {len(texts) - most} more" if len(texts) > most else "")
+
+
+def name_of(f):
+    """Condition of a result in a few words."""
+    if "seed" in f:
+        return f"{f['speed']} kt, seed {f['seed']}"
+    words = [f["aircraft"], f["inflow"], f["kind"], f["speed"], f["weight"]]
+    words += [f"{name} {f[name]}" for name in ("flight_path", "turn_rate") if f.get(name, "0 deg") != "0 deg"]
+    return " ".join(words)
+
+
+def counted(kind, cases):
+    """Failures: those that name no limit count."""
+    without = [
+        f for f in cases if f["failure"] and (not f["named"] or "no stick, stall or inflow limit" in f["failure"])
+    ]
+    named = [f for f in cases if f["failure"] and f not in without]
+    return [
+        count(f"{kind}: failures without a named limit, of {len(cases)}", without, note=told(without)),
+        count(f"{kind}: failures that name their limit, of {len(cases)}", named, gate=False, note=told(named)),
+        count(f"{kind}: with a warning, of {len(cases)}", [f for f in cases if f["warnings"]], gate=False),
+    ]
+
+
+def bounded(kind, flights):
+    """Every sample of every flight within physical bounds."""
+    beyond = [f for f in flights if f["inflow"] >= LARGEST_INFLOW]
+    fast = [f for f in flights if f["mach"] >= 1.1 * f["mach_of_motion"]]
+    worst = max(flights, key=lambda f: f["inflow"])
+    return [
+        count(
+            f"{kind}: flights with a number that is not finite, of {len(flights)}",
+            [f for f in flights if not f["finite"]],
+        ),
+        count(f"{kind}: flights with an unsolved circulation", [f for f in flights if f["unsolved"]]),
+        count(
+            f"{kind}: flights with inflow of {LARGEST_INFLOW} or more",
+            beyond,
+            note=f"largest {worst['inflow']:.3f}, {name_of(worst)}",
+        ),
+        count(f"{kind}: flights beyond 1.1 times the Mach number of motion", fast),
+    ]
+
+
+def held(flights):
+    """Rates, attitude and load factor in two seconds hands off."""
+    rate, attitude = (max(flights, key=lambda f, key=key: f[key]) for key in ("rate", "attitude"))
+    load = max(flights, key=lambda f: f["load_factor"][1] - f["load_factor"][0])
+    return [
+        Check("hands off: largest change of a body rate", rate["rate"], 0.0, RATE, "deg/s", note=name_of(rate)),
+        Check(
+            "hands off: largest change of attitude", attitude["attitude"], 0.0, ATTITUDE, "deg", note=name_of(attitude)
+        ),
+        Check("hands off: widest range of load factor", np.ptp(load["load_factor"]), 0.0, 2 * LOAD, note=name_of(load)),
+    ]
+
+
+def costs(found, random):
+    """Seconds that trims and flights took, median and most."""
+    rows = []
+    for kind in ("dynamic", "relaxation", "time-marching", "hands off", "random sticks"):
+        if kind == "random sticks":
+            those = random
+        elif kind == "hands off":
+            those = [f for f in found if f.get("fly")]
+        else:
+            those = [f for f in found if f["inflow"] == kind and not f.get("fly")]
+        seconds = [f["seconds"] for f in those]
+        slowest = max(those, key=lambda f: f["seconds"])
+        rows += [
+            Check(f"{kind}: median time", np.median(seconds), np.nan, unit="s", gate=False),
+            Check(f"{kind}: longest time", max(seconds), np.nan, unit="s", gate=False, note=name_of(slowest)),
+        ]
+    return rows
+
+
+def notes(found):
+    """Every trim that failed, in its own words."""
+    return [f"{name_of(f)}: {f['failure']}" for f in found if f["failure"]]
+
+
+COLORS = {"dynamic": style.COLORS[0], "relaxation": style.COLORS[1], "time-marching": style.COLORS[2]}
+ROWS = (
+    ("power", 1e-3, "power [kW]"),
+    ("collective", 1.0, "collective [in]"),
+    ("longitudinal", 1.0, "longitudinal [in]"),
+    ("lateral", 1.0, "lateral [in]"),
+    ("pedal", 1.0, "pedal [in]"),
+    ("pitch", 180 / np.pi, "pitch [deg]"),
+    ("roll", 180 / np.pi, "roll [deg]"),
+)
+
+
+@style.styled
+def draw(found):
+    """Power, sticks and attitude in level flight against speed: models by colour, weights by line."""
+    figure = style.blank(9.5)
+    grid = figure.subplots(len(ROWS), 2, sharex=True)
+    for column, aircraft in enumerate(WEIGHTS):
+        for inflow, color in COLORS.items():
+            for weight, line in zip(WEIGHTS[aircraft], (":", "-", "--")):
+                those = [
+                    f
+                    for f in found
+                    if (f["aircraft"], f["inflow"], f["weight"], f["kind"]) == (aircraft, inflow, weight, "level")
+                    and "power" in f
+                    and not f.get("fly")
+                ]
+                speed = [float(f["speed"].split()[0]) for f in those]
+                for axes, (name, factor, label) in zip(grid[:, column], ROWS):
+                    values = [factor * f[name] for f in those]
+                    axes.plot(speed, values, line, color=color, lw=1.0, marker=".", ms=2.5)
+                    axes.set_ylabel(label)
+        grid[0, column].set_title(f"{aircraft}: {', '.join(WEIGHTS[aircraft])}", loc="left")
+        grid[-1, column].set_xlabel("speed [kt]")
+    handles = [grid[0, 0].plot([], [], color=color)[0] for color in COLORS.values()]
+    handles += [grid[0, 0].plot([], [], line, color="0.3")[0] for line in (":", "-", "--")]
+    labels = [*COLORS, "light", "middle", "heavy"]
+    figure.legend(handles, labels, loc="outside lower center", ncols=6)
+    return figure
