@@ -70,7 +70,9 @@ def test_slow_flight_is_continuous_with_hover_from_every_side(name):
             np.abs(np.delete(state(trimmed(name, speed=speed, sideslip=f"{sideslip} deg")), 6) - hover)
             for speed in ("0.05 m/s", "0.4 m/s")
         )
-        assert np.all(near < 0.25 * far + 0.01)
+        # a ten-thousandth of the power: its first and second order may cancel at 0.4 m/s
+        slack = np.append(np.full(near.size - 1, 0.01), 1e-4 * hover[-1])
+        assert np.all(near < 0.25 * far + slack)
 
 
 @pytest.mark.parametrize("name", WEIGHTS)
