@@ -113,7 +113,7 @@ def flown(start, inflow, maneuver=None):
         "finite": bool(np.isfinite(data.inflow).all() and np.isfinite(data.force_z).all()),
         "unsolved": int(data.attrs.get("circulation_not_converged", 0)),
         "followed": int(data.attrs.get("circulation_followed", 0)),
-        "inflow": float(abs(data.inflow).max()),
+        "inflow_most": float(abs(data.inflow).max()),
         "mach": float(data.mach.max()),
         "mach_of_motion": (tip + start.condition.speed) / start.model.speed_of_sound,
         "rate": float(abs(rates - rates[:, :1]).max()),

@@ -81,9 +81,9 @@ def counted(kind, cases):
 
 def bounded(kind, flights):
     """Every sample of every flight within physical bounds."""
-    beyond = [f for f in flights if f["inflow"] >= LARGEST_INFLOW]
+    beyond = [f for f in flights if f["inflow_most"] >= LARGEST_INFLOW]
     fast = [f for f in flights if f["mach"] >= 1.1 * f["mach_of_motion"]]
-    worst = max(flights, key=lambda f: f["inflow"])
+    worst = max(flights, key=lambda f: f["inflow_most"])
     return [
         count(
             f"{kind}: flights with a number that is not finite, of {len(flights)}",
@@ -93,7 +93,7 @@ def bounded(kind, flights):
         count(
             f"{kind}: flights with inflow of {LARGEST_INFLOW} or more",
             beyond,
-            note=f"largest {worst['inflow']:.3f}, {name_of(worst)}",
+            note=f"largest {worst['inflow_most']:.3f}, {name_of(worst)}",
         ),
         count(f"{kind}: flights beyond 1.1 times the Mach number of motion", fast),
     ]
