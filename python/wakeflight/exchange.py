@@ -87,8 +87,9 @@ class MarchingExchange:
         """
         self.step_index += 1
         rows = self.rows(self.step_index)
-        hub_velocity, _ = self.model.core.hub(y)
-        self.core.set_mean_inflow(self.model.carrying_inflow(self.passed_circulation, hub_velocity))
+        if self.model.inflow.inboard_wake == "sheet":
+            hub_velocity, _ = self.model.core.hub(y)
+            self.core.set_mean_inflow(self.model.carrying_inflow(self.passed_circulation, hub_velocity))
         displacement, odd_even, distance, followed = self.core.advance(
             self.model.core, y, stick, stick_rate, rows[0], motion
         )
