@@ -16,6 +16,9 @@ const MAX_EXACT_ITERATIONS: usize = 10;
 const MAX_HALVINGS: usize = 10;
 /// Most consecutive steps without descent (kinks of section tables).
 const MAX_FAILURES: usize = 3;
+/// Largest inflow of the own near wake in a solution. It acts until a section no longer lifts, and so brings less than the wind
+/// across it; a root beyond lies where the broad side's small lift feeds a narrow element's own trailers.
+const LARGEST_INFLOW: f64 = 1.0;
 /// Circulation over the steepest slope that counts as large along a path: an inflow.
 const PATH_SCALE: f64 = 0.05;
 
@@ -177,7 +180,7 @@ impl<F: FnMut(&[f64], &mut [f64], &mut [f64])> Problem<'_, F> {
     fn solve(&mut self, start: Iterate, tolerance: f64) -> (Iterate, usize, Option<Route>) {
         let gamma_start = start.gamma.clone();
         let (newton, mut iterations) = self.settle(start, tolerance);
-        if newton.residual <= tolerance {
+        if self.solved(&newton, tolerance) {
             return (newton, iterations, Some(Route::Newton));
         }
         for route in [Route::FromStart, Route::Linear, Route::NearWake] {
@@ -194,11 +197,18 @@ impl<F: FnMut(&[f64], &mut [f64], &mut [f64])> Problem<'_, F> {
                 _ => self.descend(there, Slopes::Exact, tolerance),
             };
             iterations += n;
-            if found.residual <= tolerance {
+            if self.solved(&found, tolerance) {
                 return (found, iterations, Some(route));
             }
         }
         (newton, iterations, None)
+    }
+
+    /// Whether `at` solves the equations with an inflow that a near wake can bring.
+    fn solved(&self, at: &Iterate, tolerance: f64) -> bool {
+        let near =
+            at.inflow.iter().zip(self.far).fold(0.0f64, |most, (all, far)| most.max((all - far).abs()));
+        at.residual <= tolerance && near <= LARGEST_INFLOW
     }
 
     /// Circulation of sections that keep the slopes they have at the far inflow.
