@@ -92,7 +92,10 @@ def tail_loading(model: Model, problem: _core.TrimProblem, x: np.ndarray) -> flo
 
 
 def tail_flow(model: Model, problem: _core.TrimProblem, x: np.ndarray) -> tuple[float, float, float] | None:
-    """C_T of the tail rotor, its motion along the axis into its own wake, and in its plane, over its tip speed; None without one."""
+    """C_T of the tail rotor, its motion along the axis into its own wake, and in its plane, over its tip speed.
+
+    None without a tail rotor.
+    """
     tail = model.data["tail_rotor"]
     if tail is None:
         return None
@@ -114,6 +117,6 @@ def tail_in_vortex_ring(flow: tuple[float, float, float] | None) -> str | None:
     if not in_vortex_ring(into * np.sign(ct), mu, hover):
         return None
     return (
-        f"tail rotor: moves into its own wake at {abs(into) / hover:.2f} of its induced velocity at rest, in the vortex-ring range "
-        "of 0.5 to 2, where its momentum inflow has no answer"
+        f"tail rotor: moves into its own wake at {abs(into) / hover:.2f} of its induced velocity at rest, in the vortex-ring "
+        "range of 0.5 to 2, where its momentum inflow has no answer"
     )
