@@ -226,8 +226,8 @@ class Recorder:
             counters["relaxation_updates"] = wake.updates
             counters["relaxation_iterations"] = wake.trimmed.counters["relaxation_iterations"]
         else:
-            # a circulation that is no solution stops the flight: none is ever kept
-            counters["circulation_not_converged"] = 0
+            # one stops the flight, and is not kept
+            counters["circulation_not_converged"] = wake.core.unsolved
             counters["circulation_followed"] = wake.circulation_followed
         return counters
 

@@ -17,10 +17,8 @@ from .model import Model
 from .progress import Progress, Silent
 from .trim_limits import limiting
 from .trim_solve import solve_on_map
-from .wake_trim import WakeInTrim, marching_map
+from .wake_trim import CONTROL_TOLERANCE, INFLOW_KNOWN, WakeInTrim, marching_map
 
-CONTROL_TOLERANCE = 1e-3
-"""Change of a pitch control [rad] between trims on a free wake at which they rest."""
 MAX_OUTER = 30
 """Passes of trim and relaxation wake at most; the last halve the change of the controls."""
 MAX_SWEEPS = 900
@@ -33,8 +31,6 @@ MEANS_END = (16, 22, 28, 34, 49, 64)
 """Revolutions after which the mean since the last of them is trimmed on."""
 PERIODIC = 3e-4
 """Change of the inflow of a marching wake from turn to turn, over the tip speed, at which it is periodic."""
-MEAN_TOLERANCE = 1.5e-3
-"""Uncertainty of the mean inflow of a wake that is not, over the tip speed, with which it can be trimmed on: 3 % in hover."""
 
 
 @dataclass
@@ -154,7 +150,7 @@ def on_marching(
         change = float(np.max(np.abs(model.pitch_controls(x[:4]) - controls)))
         progress.advance(1, f"marching wake: controls {change:.1e} rad")
         periodic = direct and revolution > 3 and change < 0.1 * control_tolerance and varied < PERIODIC
-        steady_mean = change < control_tolerance and moved < chance and uncertainty < MEAN_TOLERANCE
+        steady_mean = change < control_tolerance and moved < chance and uncertainty < INFLOW_KNOWN
         if periodic or (not direct and steady_mean):
             wake.counters["wake_segment_evaluations"] += march.segment_evaluations
             notes = () if periodic or wander < PERIODIC else (varying(wander, len(recent)),)
@@ -163,7 +159,7 @@ def on_marching(
     raise NumericalFailure(
         f"trim on the time-marching wake did not settle in {MEANS_END[-1]} revolutions: pitch controls move by {change:.1e} rad "
         f"between trims on means of revolutions (allowed {control_tolerance:g}), the mean inflow by {moved:.1e} of the tip speed "
-        f"(by chance {chance:.1e}); it is known to {uncertainty:.1e} (allowed {MEAN_TOLERANCE:g}), turns vary by {wander:.1e}"
+        f"(by chance {chance:.1e}); it is known to {uncertainty:.1e} (allowed {INFLOW_KNOWN:g}), turns vary by {wander:.1e}"
         f"{''.join(f'; {each}' for each in limits)}"
     )
 

@@ -32,10 +32,13 @@ SETTLING = 5
 """Iterations of a pass that are not part of its mean."""
 PASSES_OF_MEAN = 4
 """Passes whose means are averaged at most."""
-MEAN_MOVES = 3.0
-"""Change of the mean inflow between passes, over what a change of inflow may be, with which a wake rests in the mean."""
-WANDER = 25.0
-"""Largest motion of the inflow about its mean, over the same, with which it does: a twentieth of the inflow of hover."""
+CONTROL_TOLERANCE = 1e-3
+"""Change of a pitch control [rad] between trims on a free wake at which they rest."""
+INFLOW_KNOWN = CONTROL_TOLERANCE / 1.5
+"""Uncertainty of the inflow over the tip speed (rms) with which a wake that does not rest can be trimmed on its mean.
+
+C_T = sigma a/2 [theta_75 (1/3 + mu^2/2) - lambda/2] at a thrust that is held: lambda moves the collective by 1.5 times itself in
+hover, less in forward flight, so this is what the tolerance of the controls leaves of it."""
 
 
 class WakeInTrim:
@@ -156,7 +159,7 @@ class WakeInTrim:
     @property
     def rests_in_the_mean(self) -> bool:
         """Whether the wake circles closely about an inflow that no longer moves."""
-        return max(self.mean_change / MEAN_MOVES, self.wander / WANDER) < self.model.inflow.inflow_tolerance
+        return self.mean_unrest() < 1.0
 
     def forget_means(self) -> None:
         """The motion has changed: means of passes before tell nothing of the inflow to come."""
@@ -172,8 +175,11 @@ class WakeInTrim:
 
     def missing(self) -> float:
         """How far the wake is from rest, in multiples of what is allowed: by itself, or in the mean where it circles."""
-        allowed = self.model.inflow.inflow_tolerance
-        return min(max(self.excess().values()), max(self.mean_change / MEAN_MOVES, self.wander / WANDER) / allowed)
+        return min(max(self.excess().values()), self.mean_unrest())
+
+    def mean_unrest(self) -> float:
+        """How far the mean of a wake that circles is from being one to trim on, below one where it is."""
+        return max(self.mean_change / self.model.inflow.inflow_tolerance, self.wander / INFLOW_KNOWN)
 
     def unrest(self) -> list[str]:
         """What has not settled, with figures."""
@@ -187,8 +193,8 @@ class WakeInTrim:
         if np.isfinite(self.wander):
             tolerance = self.model.inflow.inflow_tolerance
             texts.append(
-                f"the wake circles: inflow within {self.wander:.1e} of its mean (allowed {WANDER * tolerance:.1e}), which "
-                f"moves by {self.mean_change:.1e} between passes (allowed {MEAN_MOVES * tolerance:.1e})"
+                f"the wake circles: inflow within {self.wander:.1e} of its mean (allowed {INFLOW_KNOWN:.1e}), which "
+                f"moves by {self.mean_change:.1e} between passes (allowed {tolerance:.1e})"
             )
         return texts
 

@@ -1,5 +1,7 @@
 """Trims and hands-off flights over the envelope, and random stick motions."""
 
+import re
+
 import numpy as np
 from envelope_runs import SPEEDS, WEIGHTS, level, one, others, random_flight, several
 
@@ -26,7 +28,6 @@ def run(case):
         *bounded("hands off", [f for f in flights if "end" in f]),
         *held([f for f in flights if "end" in f]),
         *bounded("random sticks", [f for f in random if "end" in f]),
-        count("random sticks: flights that stop", [f for f in random if f["failure"]], gate=False, note=told(random)),
         *costs(found, random),
     ]
     return Outcome(checks, draw(found), notes(found))
@@ -66,16 +67,22 @@ def name_of(f):
     return " ".join(words)
 
 
+NO_LIMIT = re.compile("(no|without a) stick, stall or inflow limit")
+
+
 def counted(kind, cases):
-    """Failures: those that name no limit count."""
-    without = [
-        f for f in cases if f["failure"] and (not f["named"] or "no stick, stall or inflow limit" in f["failure"])
-    ]
-    named = [f for f in cases if f["failure"] and f not in without]
+    """Failures by what they name; those that name no limit count, and flights that stop. What rests only in the mean is shown."""
+    failed = [f for f in cases if f["failure"]]
+    without = [f for f in failed if not f["named"] or NO_LIMIT.search(f["failure"])]
+    unrest = [f for f in failed if f not in without and "did not settle" in f["failure"]]
+    named = [f for f in failed if f not in without and f not in unrest]
+    mean = [f for f in cases if any("circles about" in text or "varies from turn" in text for text in f["warnings"])]
     return [
         count(f"{kind}: failures without a named limit, of {len(cases)}", without, note=told(without)),
-        count(f"{kind}: failures that name their limit, of {len(cases)}", named, gate=False, note=told(named)),
-        count(f"{kind}: with a warning, of {len(cases)}", [f for f in cases if f["warnings"]], gate=False),
+        count(f"{kind}: stopped by a limit that is named", named, gate=kind == "flight", note=told(named)),
+        count(f"{kind}: wake that does not settle, with what moves", unrest, gate=kind == "flight", note=told(unrest)),
+        count(f"{kind}: on a wake that rests in the mean alone", mean, gate=False),
+        count(f"{kind}: with any warning", [f for f in cases if f["warnings"]], gate=False),
     ]
 
 
@@ -90,6 +97,7 @@ def bounded(kind, flights):
             [f for f in flights if not f["finite"]],
         ),
         count(f"{kind}: flights with an unsolved circulation", [f for f in flights if f["unsolved"]]),
+        count(f"{kind}: flights that end early", [f for f in flights if f["failure"]], gate=kind == "hands off"),
         count(
             f"{kind}: flights with inflow of {LARGEST_INFLOW} or more",
             beyond,

@@ -398,6 +398,12 @@ impl PyMarchingExchange {
         self.inner.wake.segment_evaluations()
     }
 
+    /// Circulations that were not solved: the call of `advance` that met one failed.
+    #[getter]
+    fn unsolved(&self) -> usize {
+        self.inner.unsolved
+    }
+
     /// Independent copy.
     fn copy(&self) -> Self {
         Self { inner: self.inner.clone() }

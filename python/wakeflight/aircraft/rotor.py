@@ -10,6 +10,8 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
+import numpy as np
+
 from ..errors import InputError
 from ..units import STANDARD_GRAVITY, quantity
 from . import tables
@@ -38,6 +40,11 @@ class Rotor:
     warnings: tuple[str, ...] = ()
     weight: float | None = None
     """Weight [N] that the aircraft, or the `[condition]` of the rotor file, names; None where there is none."""
+
+    def _along(self, name: str, station: float) -> float:
+        """Value of a column of the blade at `station` [m], held beyond its ends."""
+        table = self.data["blade"][name]
+        return float(np.interp(station, table["x"], table["y"]))
 
     @property
     def n_blades(self) -> int:
@@ -69,7 +76,7 @@ class Rotor:
     @property
     def chord(self) -> float:
         """Chord at three quarters of the radius [m]."""
-        return _interpolated(self.data["blade"]["chord"], 0.75 * self.radius)
+        return self._along("chord", 0.75 * self.radius)
 
     @property
     def solidity(self) -> float:
@@ -78,7 +85,7 @@ class Rotor:
 
     def twist(self, station: float) -> float:
         """Built-in twist [rad] at `station` [m]."""
-        return _interpolated(self.data["blade"]["twist"], station)
+        return self._along("twist", station)
 
     def with_speed(self, omega: float) -> Rotor:
         """The same rotor turning at `omega` [rad/s]."""
@@ -264,14 +271,3 @@ def _settings(spec: RotorFile, path: Path) -> Settings:
     blade = spec.rotor.blade
     n_modes = given.n_modes if blade.flexible else HINGE_MODES[blade.root]
     return Settings(n_modes, given.n_elements, given.n_gauss, step, pitch)
-
-
-def _interpolated(table: dict[str, list[float]], at: float) -> float:
-    """Piecewise linear, held beyond the ends."""
-    x, y = table["x"], table["y"]
-    if at <= x[0]:
-        return y[0]
-    for i in range(len(x) - 1):
-        if at <= x[i + 1]:
-            return y[i] + (at - x[i]) / (x[i + 1] - x[i]) * (y[i + 1] - y[i])
-    return y[-1]

@@ -7,6 +7,8 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
+import numpy as np
+
 SEA_LEVEL_DENSITY = 1.225
 """Density [kg/m3] at which a file alone is judged."""
 
@@ -136,9 +138,4 @@ def in_grid(grid: dict[str, Any], x: float, y: float) -> float:
 
 def interpolated(x: Sequence[float], y: Sequence[float], at: float) -> float:
     """Piecewise linear, held beyond the ends."""
-    if at <= x[0]:
-        return y[0]
-    for i in range(len(x) - 1):
-        if at <= x[i + 1]:
-            return y[i] + (at - x[i]) / (x[i + 1] - x[i]) * (y[i + 1] - y[i])
-    return y[-1]
+    return float(np.interp(at, x, y))

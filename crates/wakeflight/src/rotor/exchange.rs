@@ -71,6 +71,8 @@ pub struct MarchingExchange {
     pub circulation: Vec<f64>,
     /// Total inflow held over the next step (n_blades, n_stations), with thin sections at both lines of the chord.
     pub inflow: Vec<f64>,
+    /// Circulations that were not solved; the exchange that met one failed.
+    pub unsolved: usize,
     blades: Vec<BladeInstant>,
     states: Vec<BladeState>,
     near_wakes: Vec<NearWake>,
@@ -93,6 +95,7 @@ impl MarchingExchange {
             before: None,
             circulation,
             inflow,
+            unsolved: 0,
             blades: Vec::new(),
             states: Vec::new(),
             near_wakes: Vec::new(),
@@ -185,6 +188,7 @@ impl MarchingExchange {
                 solution.found_by == Some(Route::Newton)
             });
         });
+        self.unsolved += outcomes.iter().filter(|o| matches!(o, Err(WakeError::Circulation { .. }))).count();
         outcomes.into_iter().try_fold(0, |followed, outcome| Ok(followed + usize::from(!outcome?)))
     }
 
