@@ -31,7 +31,7 @@ LEAST_RELAXATION = 0.25
 SETTLING = 5
 """Iterations of a pass that are not part of its mean."""
 PASSES_OF_MEAN = 8
-"""Passes whose means are averaged at most: pass means scatter by several tolerances, the mean of eight moves by an eighth of that."""
+"""Passes whose means are averaged at most: they scatter by several tolerances, the mean of eight moves by an eighth of that."""
 CONTROL_TOLERANCE = 1e-3
 """Change of a pitch control [rad] between trims on a free wake at which they rest."""
 INFLOW_KNOWN = CONTROL_TOLERANCE / 1.5
