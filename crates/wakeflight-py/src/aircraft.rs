@@ -8,13 +8,15 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::f64::consts::TAU;
-use wakeflight::aircraft::data::AircraftData;
-use wakeflight::aircraft::model::{Aircraft, HeldInflow, Inputs};
-use wakeflight::aircraft::trim::{Convention, TrimInflow, TrimProblem};
 use wakeflight::blade::aerodynamics::Air;
 use wakeflight::blade::model::Discretisation;
 use wakeflight::numerics::frames::{Hub, Vec3};
 use wakeflight::rotor::circulation::BladeInstant;
+use wakeflight::system::carrier::Carrier;
+use wakeflight::system::data::AircraftData;
+use wakeflight::system::instant::{HeldInflow, Inputs, Instant};
+use wakeflight::system::model::{Setting, System};
+use wakeflight::system::trim::{Convention, TrimInflow, TrimProblem};
 use wakeflight::wake::WakeOptions;
 
 fn invalid(error: impl std::fmt::Display) -> PyErr {
@@ -46,7 +48,7 @@ impl PyInputs {
                 HeldInflow::Stations { inflow: map.as_array().iter().copied().collect(), mean: mean_inflow }
             }
         };
-        Ok(Self(Inputs { stick, stick_rate, t_start, inflow, stabilator_incidence }))
+        Ok(Self(Inputs { stick, stick_rate, t_start, inflow: vec![inflow], stabilator_incidence }))
     }
 }
 
@@ -87,7 +89,7 @@ impl PyTrimProblem {
 /// Aircraft of one condition.
 #[pyclass(name = "Aircraft", frozen)]
 pub struct PyAircraft {
-    pub(crate) inner: Aircraft,
+    pub(crate) inner: System,
 }
 
 fn hub_vector(v: [f64; 3]) -> Vec3<f64, Hub> {
@@ -113,10 +115,8 @@ impl PyAircraft {
     ) -> PyResult<Self> {
         let data: AircraftData = serde_json::from_str(data_json).map_err(invalid)?;
         let discretisation = Discretisation { n_elements, n_modes, n_gauss, n_stations, reference_pitch };
-        let inner =
-            Aircraft::new(&data, Air { density, speed_of_sound }, &discretisation, free_wake, gravity)
-                .map_err(invalid)?;
-        Ok(Self { inner })
+        let setting = Setting { air: Air { density, speed_of_sound }, gravity, free_wake, discretisation };
+        Ok(Self { inner: System::aircraft(&data, &setting).map_err(invalid)? })
     }
 
     /// Names and units of the states, in order.
@@ -126,21 +126,22 @@ impl PyAircraft {
 
     /// Start indices of the parts of y: velocity, rates, attitude, position, per blade modal and modal_rate, inflow, tail.
     fn layout<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let (l, d) = (&self.inner.layout, PyDict::new(py));
+        let (layout, d) = (&self.inner.layout, PyDict::new(py));
+        let l = layout.main();
         let span = |r: std::ops::Range<usize>| (r.start, r.end);
         d.set_item("n_blades", l.n_blades)?;
         d.set_item("n_modes", l.n_modes)?;
         d.set_item("modal", (0..l.n_blades).map(|b| span(l.modal(b))).collect::<Vec<_>>())?;
         d.set_item("modal_rate", (0..l.n_blades).map(|b| span(l.modal_rate(b))).collect::<Vec<_>>())?;
         d.set_item("inflow", span(l.inflow()))?;
-        d.set_item("tail_inflow", span(l.tail_inflow()))?;
-        d.set_item("size", l.len())?;
+        d.set_item("tail_inflow", span(layout.closed_inflow()))?;
+        d.set_item("size", layout.len())?;
         Ok(d)
     }
 
     /// Constants of the rotor that the coupling and the results need.
     fn rotor<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        rotor_constants(py, &self.inner.rotor)
+        rotor_constants(py, &self.inner.main())
     }
 
     /// F into `out`.
@@ -152,7 +153,8 @@ impl PyAircraft {
         inputs: &PyInputs,
         mut out: PyReadwriteArray1<f64>,
     ) -> PyResult<()> {
-        self.inner.residual_of_four(t, y.as_slice()?, y_dot.as_slice()?, &inputs.0, out.as_slice_mut()?);
+        let at = Instant { t, y: y.as_slice()?, y_dot: y_dot.as_slice()?, inputs: &inputs.0 };
+        self.inner.residual_of_four(&at, out.as_slice_mut()?);
         Ok(())
     }
 
@@ -183,7 +185,8 @@ impl PyAircraft {
         b: f64,
         mut out: PyReadwriteArray2<f64>,
     ) -> PyResult<()> {
-        self.inner.jacobian(t, y.as_slice()?, y_dot.as_slice()?, &inputs.0, a, b, out.as_slice_mut()?);
+        let at = Instant { t, y: y.as_slice()?, y_dot: y_dot.as_slice()?, inputs: &inputs.0 };
+        self.inner.jacobian(&at, a, b, out.as_slice_mut()?);
         Ok(())
     }
 
@@ -195,7 +198,7 @@ impl PyAircraft {
     /// Index of the first unknown of every mode, and of inflow and tail-rotor inflow.
     fn trim_layout(&self, problem: &PyTrimProblem) -> (Vec<usize>, usize, usize) {
         let l = self.inner.trim_layout(&problem.0);
-        ((0..=self.inner.layout.n_modes).map(|i| l.mode(i)).collect(), l.inflow(), l.tail_inflow())
+        ((0..=self.inner.layout.main().n_modes).map(|i| l.mode(i)).collect(), l.inflow(), l.tail_inflow())
     }
 
     /// Residual of the trim equations.
@@ -246,7 +249,7 @@ impl PyAircraft {
     /// Incidence [rad] the stabilator's schedule asks for at a true airspeed [m/s], collective stick [m], pitch rate [rad/s],
     /// and the rate limit of its servo [rad/s]; None without a schedule.
     fn scheduled_stabilator(&self, speed: f64, collective: f64, pitch_rate: f64) -> Option<(f64, f64)> {
-        let airframe = &self.inner.airframe;
+        let Carrier::Airframe(airframe) = &self.inner.carrier else { return None };
         let schedule = airframe.stabilator_schedule.as_ref()?;
         let incidence = airframe.trim_incidence(speed, self.inner.air.density, collective, pitch_rate);
         Some((incidence, schedule.rate_limit))
@@ -261,7 +264,7 @@ impl PyAircraft {
         n_azimuths: usize,
     ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>)> {
         let l = self.inner.trim_layout(&problem.0);
-        let n = self.inner.layout.n_modes;
+        let n = self.inner.layout.main().n_modes;
         let (mut q, mut q_dot) = (Vec::new(), Vec::new());
         for k in 0..n_azimuths {
             let m = self.inner.periodic_motion(&l, x.as_slice()?, TAU * k as f64 / n_azimuths as f64);
@@ -275,7 +278,7 @@ impl PyAircraft {
     /// Hub velocity [m/s] and rates [rad/s], non-rotating hub axes.
     fn hub(&self, y: PyReadonlyArray1<f64>) -> PyResult<([f64; 3], [f64; 3])> {
         let y = y.as_slice()?;
-        let hub = self.inner.hub_motion(y, &vec![0.0; y.len()]);
+        let hub = self.inner.hub_motion(0, y, &vec![0.0; y.len()]);
         Ok((hub.velocity.array(), hub.omega.array()))
     }
 
@@ -289,7 +292,7 @@ impl PyAircraft {
             .as_array()
             .rows()
             .into_iter()
-            .map(|row| self.inner.rotor.equivalent_angles(&motion(row.iter().copied(), std::iter::empty())))
+            .map(|row| self.inner.main().equivalent_angles(&motion(row.iter().copied(), std::iter::empty())))
             .unzip();
         (flap.into_pyarray(py), lead.into_pyarray(py))
     }
@@ -314,14 +317,7 @@ impl PyAircraft {
     ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>, f64, usize)> {
         let options: WakeOptions = serde_json::from_str(wake_options).map_err(invalid)?;
         let y = y.as_slice()?;
-        let hub = self.inner.hub_motion(y, &vec![0.0; y.len()]);
-        let inputs = Inputs {
-            stick,
-            stick_rate,
-            t_start: 0.0,
-            inflow: HeldInflow::Dynamic,
-            stabilator_incidence: 0.0,
-        };
+        let hub = self.inner.hub_motion(0, y, &vec![0.0; y.len()]);
         let (q, q_dot) = (q.as_array(), q_dot.as_array());
         let instants: Vec<BladeInstant> = psi
             .as_slice()?
@@ -330,14 +326,16 @@ impl PyAircraft {
             .map(|(i, &psi)| BladeInstant {
                 psi,
                 modal: motion(q.row(i).iter().copied(), q_dot.row(i).iter().copied()),
-                control: self.inner.blade_pitch(&inputs, 0.0, psi),
+                control: self.inner.main().blade_pitch(stick, stick_rate, psi).into(),
             })
             .collect();
         let n = lambda_far.as_array().ncols();
         let far: Vec<f64> = lambda_far.as_array().iter().copied().collect();
         let start: Vec<f64> = start.as_array().iter().copied().collect();
         let all = py
-            .detach(|| self.inner.rotor.circulations(self.inner.air, &options, &hub, &instants, &far, &start))
+            .detach(|| {
+                self.inner.main().circulations(self.inner.air, &options, &hub, &instants, &far, &start)
+            })
             .map_err(|e| pyo3::exceptions::PyArithmeticError::new_err(e.to_string()))?;
         let shape = |v| Array::from_shape_vec((instants.len(), n), v).map_err(invalid);
         let (gamma, inflow) = (shape(all.gamma)?, shape(all.inflow)?);
@@ -363,21 +361,14 @@ impl PyAircraft {
             omega: hub_vector(hub_rates),
             omega_dot: Vec3::zero(),
         };
-        let inputs = Inputs {
-            stick,
-            stick_rate: [0.0; 4],
-            t_start: 0.0,
-            inflow: HeldInflow::Dynamic,
-            stabilator_incidence: 0.0,
-        };
         let blade = BladeInstant {
             psi,
             modal: motion(q.as_slice()?.iter().copied(), q_dot.as_slice()?.iter().copied()),
-            control: self.inner.blade_pitch(&inputs, 0.0, psi),
+            control: self.inner.main().blade_pitch(stick, [0.0; 4], psi).into(),
         };
         let lambda = inflow.as_slice()?;
         let (mut gamma, mut slope) = (vec![0.0; lambda.len()], vec![0.0; lambda.len()]);
-        self.inner.rotor.section_circulation(self.inner.air, &hub, &blade, lambda, &mut gamma, &mut slope);
+        self.inner.main().section_circulation(self.inner.air, &hub, &blade, lambda, &mut gamma, &mut slope);
         Ok((gamma.into_pyarray(py), slope.into_pyarray(py)))
     }
 
@@ -390,19 +381,21 @@ impl PyAircraft {
         y_dot: PyReadonlyArray1<f64>,
         inputs: &PyInputs,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let o = self.inner.outputs(t, y.as_slice()?, y_dot.as_slice()?, &inputs.0);
-        let n_blades = self.inner.rotor.n_blades;
+        let at = Instant { t, y: y.as_slice()?, y_dot: y_dot.as_slice()?, inputs: &inputs.0 };
+        let mut all = self.inner.outputs(&at);
+        let o = all.rotors.swap_remove(0);
+        let n_blades = self.inner.main().n_blades;
         let d = PyDict::new(py);
-        d.set_item("force", o.force)?;
-        d.set_item("moment", o.moment)?;
+        d.set_item("force", all.force)?;
+        d.set_item("moment", all.moment)?;
         d.set_item("hub_force", o.hub_force)?;
         d.set_item("hub_moment", o.hub_moment)?;
         d.set_item("ct", o.ct)?;
         d.set_item("beta_1c", o.beta_1c)?;
         d.set_item("beta_1s", o.beta_1s)?;
-        d.set_item("power", o.power)?;
-        d.set_item("energy", o.energy)?;
-        d.set_item("load_power", o.load_power)?;
+        d.set_item("power", [o.power, all.power[0], all.power[1]])?;
+        d.set_item("energy", all.energy)?;
+        d.set_item("load_power", all.load_power)?;
         d.set_item("azimuth", o.azimuth)?;
         let fields = [
             ("inflow", o.inflow),

@@ -14,7 +14,6 @@ use numpy::{
 use pyo3::exceptions::{PyArithmeticError, PyValueError};
 use pyo3::prelude::*;
 use std::f64::consts::TAU;
-use wakeflight::aircraft::model::{HeldInflow, Inputs};
 use wakeflight::blade::aerodynamics::Air;
 use wakeflight::blade::kinematics::ModalMotion;
 use wakeflight::blade::loads::HubMotion;
@@ -25,6 +24,7 @@ use wakeflight::rotor::circulation::BladeInstant;
 use wakeflight::rotor::exchange::{ExchangeOptions, MarchingExchange};
 use wakeflight::rotor::hub::Rotor;
 use wakeflight::rotor::swashplate::MovingPitch;
+use wakeflight::system::instant::Instant;
 use wakeflight::wake::TimeMarchingWake;
 
 fn failed(error: StepFailure) -> PyErr {
@@ -52,7 +52,7 @@ impl PyFixedStep {
         newton_share: f64,
         kept: f64,
     ) -> PyResult<Self> {
-        let layout = aircraft.inner.layout;
+        let layout = &aircraft.inner.layout;
         let solver = FixedStep::new(layout, t, y.as_slice()?, rtol, atol.as_slice()?, newton_share);
         Ok(Self { inner: solver.keeping(kept) })
     }
@@ -156,7 +156,7 @@ struct PyLinearised {
 impl PyLinearised {
     #[new]
     fn new(aircraft: &PyAircraft) -> Self {
-        Self { inner: Linearised::new(aircraft.inner.layout) }
+        Self { inner: Linearised::new(&aircraft.inner.layout) }
     }
 
     /// y_dot that satisfies F = 0 at (t, y), from the guess `y_dot`; linearises there (`renew`), or finds dF/dy_dot alone.
@@ -174,9 +174,9 @@ impl PyLinearised {
         let (y, mut rate) = (y.as_slice()?, y_dot.as_slice()?.to_vec());
         let (linear, aircraft) = (&mut self.inner, &aircraft.inner);
         let solved = if renew {
-            linear.consistent(aircraft, t, y, &mut rate, &inputs.0)
+            linear.consistent(aircraft, (t, y), &mut rate, &inputs.0)
         } else {
-            linear.consistent_by_mass(aircraft, t, y, &mut rate, &inputs.0)
+            linear.consistent_by_mass(aircraft, (t, y), &mut rate, &inputs.0)
         };
         solved.map_err(|e| PyArithmeticError::new_err(e.to_string()))?;
         Ok(rate.into_pyarray(py))
@@ -191,7 +191,8 @@ impl PyLinearised {
         y_dot: PyReadonlyArray1<f64>,
         inputs: &PyInputs,
     ) -> PyResult<()> {
-        self.inner.renew(&aircraft.inner, t, y.as_slice()?, y_dot.as_slice()?, &inputs.0);
+        let at = Instant { t, y: y.as_slice()?, y_dot: y_dot.as_slice()?, inputs: &inputs.0 };
+        self.inner.renew(&aircraft.inner, &at);
         Ok(())
     }
 
@@ -203,7 +204,8 @@ impl PyLinearised {
         y: PyReadonlyArray1<f64>,
         inputs: &PyInputs,
     ) -> PyResult<()> {
-        self.inner.renew_mass(&aircraft.inner, t, y.as_slice()?, &inputs.0);
+        let y = y.as_slice()?;
+        self.inner.renew_mass(&aircraft.inner, &Instant { t, y, y_dot: y, inputs: &inputs.0 });
         Ok(())
     }
 
@@ -224,14 +226,14 @@ enum Core<'py> {
 impl Core<'_> {
     fn rotor(&self) -> (&Rotor, Air) {
         match self {
-            Self::Aircraft(a) => (&a.inner.rotor, a.inner.air),
+            Self::Aircraft(a) => (a.inner.main(), a.inner.air),
             Self::Stand(s) => (&s.inner.rotor, s.inner.air),
         }
     }
 
     fn hub(&self, y: &[f64]) -> PyResult<HubMotion<f64>> {
         match self {
-            Self::Aircraft(a) => Ok(a.inner.hub_motion(y, &vec![0.0; y.len()])),
+            Self::Aircraft(a) => Ok(a.inner.hub_motion(0, y, &vec![0.0; y.len()])),
             Self::Stand(s) => {
                 let (velocity, rates) = hub_state(y)?;
                 Ok(s.inner.hub(velocity, rates))
@@ -242,7 +244,7 @@ impl Core<'_> {
     /// Modal motion of blade `b` in `y`; a stand keeps none there.
     fn modal(&self, y: &[f64], b: usize) -> PyResult<ModalMotion<f64>> {
         match self {
-            Self::Aircraft(a) => Ok(a.inner.modal_motion(y, &vec![0.0; y.len()], b)),
+            Self::Aircraft(a) => Ok(a.inner.modal_motion(0, y, &vec![0.0; y.len()], b)),
             Self::Stand(_) => Err(PyValueError::new_err("motion: needed for a rotor on a stand")),
         }
     }
@@ -257,14 +259,8 @@ impl Core<'_> {
         let wrong = || PyValueError::new_err(format!("stick has {} numbers", stick.len()));
         let control = match self {
             Self::Aircraft(a) => {
-                let inputs = Inputs {
-                    stick: stick.try_into().map_err(|_| wrong())?,
-                    stick_rate: rate.try_into().map_err(|_| wrong())?,
-                    t_start: 0.0,
-                    inflow: HeldInflow::Dynamic,
-                    stabilator_incidence: 0.0,
-                };
-                a.inner.blade_pitch(&inputs, 0.0, psi)
+                let controls = stick.try_into().map_err(|_| wrong())?;
+                a.inner.main().blade_pitch(controls, rate.try_into().map_err(|_| wrong())?, psi).into()
             }
             Self::Stand(s) => {
                 let controls = stick.try_into().map_err(|_| wrong())?;

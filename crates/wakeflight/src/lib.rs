@@ -18,6 +18,6 @@ pub mod rotor;
 
 pub mod airframe;
 
-pub mod aircraft;
+pub mod system;
 
 pub mod integrate;

@@ -4,9 +4,10 @@ mod mechanics_support;
 
 use mechanics_support::beam_support::uh60a;
 use mechanics_support::*;
-use wakeflight::aircraft::model::{Aircraft, HeldInflow, Inputs};
-use wakeflight::aircraft::rates::RigidRates;
 use wakeflight::blade::section::BladeProperties;
+use wakeflight::system::instant::{HeldInflow, Inputs};
+use wakeflight::system::model::{Setting, System};
+use wakeflight::system::rates::RigidRates;
 
 const STICK: [f64; 4] = [0.13, 0.14, 0.12, 0.06];
 
@@ -22,15 +23,15 @@ fn properties() -> BladeProperties {
     properties
 }
 
-fn aircraft(free_wake: bool) -> Aircraft {
+fn aircraft(free_wake: bool) -> System {
     let data = aircraft_data(properties(), smooth_airfoil(6.0, 0.4, 0.01, -0.02));
     let mut d = discretisation(2, 8);
     d.n_modes = 2;
-    Aircraft::new(&data, AIR, &d, free_wake, 9.81).unwrap()
+    System::aircraft(&data, &Setting { discretisation: d, ..setting(free_wake, 9.81) }).unwrap()
 }
 
 /// Held, from the states, and none.
-fn cases() -> Vec<(Aircraft, Inputs)> {
+fn cases() -> Vec<(System, Inputs)> {
     let held: Vec<f64> = (0..60).map(|i| 0.01 + 0.001 * f64::from(i % 17)).collect();
     let stations = HeldInflow::Stations { inflow: held, mean: 0.02 };
     [(aircraft(true), stations), (aircraft(false), HeldInflow::Dynamic), (aircraft(true), HeldInflow::Vacuum)]
@@ -43,9 +44,9 @@ fn cases() -> Vec<(Aircraft, Inputs)> {
         .collect()
 }
 
-fn residual(aircraft: &Aircraft, y: &[f64], y_dot: &[f64], inputs: &Inputs) -> Vec<f64> {
+fn residual(aircraft: &System, y: &[f64], y_dot: &[f64], inputs: &Inputs) -> Vec<f64> {
     let mut f = vec![f64::NAN; y.len()];
-    aircraft.residual(0.4, y, y_dot, inputs, &mut f);
+    aircraft.residual(&at(0.4, y, y_dot, inputs), &mut f);
     f
 }
 
@@ -53,7 +54,7 @@ fn residual(aircraft: &Aircraft, y: &[f64], y_dot: &[f64], inputs: &Inputs) -> V
 fn its_loads_are_those_of_points_and_stations_one_by_one() {
     for (whole, inputs) in cases() {
         let mut parts = whole.clone();
-        assert!(parts.rotor.blade.rigid.take().is_some());
+        assert!(parts.rotors[0].blade.rigid.take().is_some());
         for seed in 1..20 {
             let (y, y_dot) = random_state(&whole, &mut Random::new(seed));
             let (found, expected) =
@@ -63,8 +64,8 @@ fn its_loads_are_those_of_points_and_stations_one_by_one() {
             }
             let n = y.len();
             let (mut a, mut b) = (vec![0.0; n * n], vec![0.0; n * n]);
-            whole.jacobian(0.4, &y, &y_dot, &inputs, 1.0, 30.0, &mut a);
-            parts.jacobian(0.4, &y, &y_dot, &inputs, 1.0, 30.0, &mut b);
+            whole.jacobian(&at(0.4, &y, &y_dot, &inputs), 1.0, 30.0, &mut a);
+            parts.jacobian(&at(0.4, &y, &y_dot, &inputs), 1.0, 30.0, &mut b);
             let largest = b.iter().fold(0f64, |m, v| m.max(v.abs()));
             assert!(a.iter().zip(&b).all(|(f, e)| (f - e).abs() < 1e-11 * largest), "{seed}");
         }
@@ -76,7 +77,7 @@ fn four_at_once_have_the_same_bits() {
     for (aircraft, inputs) in cases() {
         let (y, y_dot) = random_state(&aircraft, &mut Random::new(5));
         let mut at_once = vec![f64::NAN; y.len()];
-        aircraft.residual_of_four(0.4, &y, &y_dot, &inputs, &mut at_once);
+        aircraft.residual_of_four(&at(0.4, &y, &y_dot, &inputs), &mut at_once);
         assert_eq!(residual(&aircraft, &y, &y_dot, &inputs), at_once);
     }
 }
@@ -88,7 +89,7 @@ fn its_rate_in_closed_form_satisfies_the_equations() {
         for seed in 1..20 {
             let (y, _) = random_state(&aircraft, &mut Random::new(seed));
             let mut rate = vec![f64::NAN; y.len()];
-            rates.find(&aircraft, 0.4, &y, &inputs, &mut rate).unwrap();
+            rates.find(&aircraft, (0.4, &y), &inputs, &mut rate).unwrap();
             let left = residual(&aircraft, &y, &rate, &inputs);
             assert!(left.iter().all(|v| v.abs() < 1e-9), "{seed}: {left:?}");
             let expected = aircraft.consistent_rate(0.4, &y, &inputs).unwrap();

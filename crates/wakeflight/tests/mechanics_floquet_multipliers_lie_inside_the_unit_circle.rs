@@ -7,12 +7,12 @@ use mechanics_support::beam_support::uh60a;
 use mechanics_support::*;
 use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 use std::f64::consts::{PI, TAU};
-use wakeflight::aircraft::model::Aircraft;
 use wakeflight::blade::MAX_MODES;
 use wakeflight::blade::kinematics::{ModalMotion, PitchMotion};
 use wakeflight::blade::loads::{BladeInflow, HubMotion};
 use wakeflight::numerics::frames::Vec3;
 use wakeflight::numerics::scalar::{Dual, Real};
+use wakeflight::system::model::System;
 
 const N: usize = 5;
 const HARMONICS: usize = 5;
@@ -23,7 +23,7 @@ type D = Dual<UNKNOWNS>;
 type P = Dual<15>;
 
 struct Trimmed {
-    aircraft: Aircraft,
+    aircraft: System,
     mu: f64,
     lambda: f64,
     x: SVector<f64, UNKNOWNS>,
@@ -56,7 +56,7 @@ fn motion<S: Real>(x: &[S], psi: f64) -> (ModalMotion<S>, PitchMotion<S>) {
 impl Trimmed {
     fn hub<S: Real>(&self) -> HubMotion<S> {
         let mut hub = hub_at_rest();
-        hub.velocity = Vec3::cst([-self.mu * self.aircraft.rotor.tip_speed(), 0.0, 0.0]);
+        hub.velocity = Vec3::cst([-self.mu * self.aircraft.main().tip_speed(), 0.0, 0.0]);
         hub.acceleration_less_gravity = Vec3::cst([0.0, 0.0, 9.80665]);
         hub
     }
@@ -65,7 +65,7 @@ impl Trimmed {
     fn new(mu: f64) -> Self {
         let data = aircraft_data(uh60a(), data_files::airfoil("sc1095", 0.002));
         let aircraft = build(&data, false, 9.80665);
-        let rotor = &aircraft.rotor;
+        let rotor = aircraft.main();
         let weight = data.mass.gross_mass * 9.80665;
         let disk = PI * rotor.blade.radius.powi(2);
         let ct = weight / (AIR.density * disk * rotor.tip_speed().powi(2));
@@ -92,7 +92,7 @@ impl Trimmed {
     }
 
     fn equations(&self, weight: f64) -> Vec<D> {
-        let rotor = &self.aircraft.rotor;
+        let rotor = self.aircraft.main();
         let x: Vec<D> = (0..UNKNOWNS).map(|i| D::variable(self.x[i], i)).collect();
         let mut rows = vec![D::zero(); UNKNOWNS];
         let inflow = BladeInflow::Disk([D::cst(self.lambda), D::zero(), D::zero()]);
@@ -119,7 +119,7 @@ impl Trimmed {
 
     /// d(delta q, delta q_dot)/dt = A (delta q, delta q_dot) at azimuth `psi`.
     fn matrix(&self, psi: f64, damper: bool, pitch_rate_moment: bool) -> SMatrix<f64, 10, 10> {
-        let rotor = &self.aircraft.rotor;
+        let rotor = self.aircraft.main();
         let (at, control) = motion(self.x.as_slice(), psi);
         let vary = |x: [f64; MAX_MODES], first: usize| {
             std::array::from_fn::<P, MAX_MODES, _>(|i| {
@@ -159,7 +159,7 @@ impl Trimmed {
         pitch: &PitchMotion<P>,
         rows: &mut [P],
     ) {
-        let rotor = &self.aircraft.rotor;
+        let rotor = self.aircraft.main();
         let (s, c) = psi.sin_cos();
         let forward = self.mu * rotor.tip_speed();
         let velocity = Vec3::cst([-forward * c, forward * s, 0.0]);

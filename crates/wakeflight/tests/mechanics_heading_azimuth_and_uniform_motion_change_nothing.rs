@@ -4,16 +4,17 @@ mod mechanics_support;
 
 use mechanics_support::beam_support::uh60a;
 use mechanics_support::*;
-use wakeflight::aircraft::model::{Aircraft, HeldInflow, Inputs};
 use wakeflight::numerics::frames::{Inertial, Vec3, rot_ib};
+use wakeflight::system::instant::{HeldInflow, Inputs};
+use wakeflight::system::model::System;
 
-fn residual(aircraft: &Aircraft, t: f64, y: &[f64], y_dot: &[f64], inputs: &Inputs) -> Vec<f64> {
+fn residual(aircraft: &System, t: f64, y: &[f64], y_dot: &[f64], inputs: &Inputs) -> Vec<f64> {
     let mut f = vec![0.0; y.len()];
-    aircraft.residual(t, y, y_dot, inputs, &mut f);
+    aircraft.residual(&at(t, y, y_dot, inputs), &mut f);
     f
 }
 
-fn aircraft(free_wake: bool) -> Aircraft {
+fn aircraft(free_wake: bool) -> System {
     build(&aircraft_data(uh60a(), data_files::airfoil("sc1095", 0.002)), free_wake, 9.80665)
 }
 
@@ -51,8 +52,8 @@ fn heading_changes_nothing() {
 fn a_shift_by_the_blade_spacing_renumbers_the_blades() {
     for free_wake in [false, true] {
         let aircraft = aircraft(free_wake);
-        let l = aircraft.layout;
-        let n = aircraft.rotor.blade.stations.len();
+        let l = aircraft.layout.main();
+        let n = aircraft.main().blade.stations.len();
         let mut random = Random::new(14);
         let map: Vec<f64> = (0..4 * n).map(|_| 0.03 + 0.02 * random.next()).collect();
         let renumbered: Vec<f64> = (0..4 * n).map(|k| map[(k + n) % (4 * n)]).collect();

@@ -6,34 +6,35 @@ mod mechanics_support;
 use mechanics_support::beam_support::uh60a;
 use mechanics_support::*;
 use nalgebra::{DMatrix, DVector};
-use wakeflight::aircraft::model::{Aircraft, HeldInflow, Inputs};
 use wakeflight::numerics::frames::{Body, Inertial, Vec3, rot_ib};
 use wakeflight::numerics::scalar::{Dual, Real};
+use wakeflight::system::instant::{HeldInflow, Inputs};
+use wakeflight::system::model::System;
 
 type D = Dual<1>;
 
 /// y_dot that makes F vanish.
-fn rates(aircraft: &Aircraft, inputs: &Inputs, t: f64, y: &[f64]) -> Vec<f64> {
+fn rates(aircraft: &System, inputs: &Inputs, t: f64, y: &[f64]) -> Vec<f64> {
     let n = y.len();
     let zero = vec![0.0; n];
     let (mut f, mut matrix) = (vec![0.0; n], vec![0.0; n * n]);
-    aircraft.residual(t, y, &zero, inputs, &mut f);
-    aircraft.jacobian(t, y, &zero, inputs, 0.0, 1.0, &mut matrix);
+    aircraft.residual(&at(t, y, &zero, inputs), &mut f);
+    aircraft.jacobian(&at(t, y, &zero, inputs), 0.0, 1.0, &mut matrix);
     let solution = DMatrix::from_row_slice(n, n, &matrix).lu().solve(&-DVector::from_vec(f)).unwrap();
     solution.as_slice().to_vec()
 }
 
 /// Energy (strain, kinetic, gravity), momentum, moment of momentum about the ground's origin, first moment of mass.
-fn invariants(aircraft: &Aircraft, t: f64, y: &[f64], y_dot: &[f64], pitch: f64) -> (f64, [[f64; 3]; 3]) {
+fn invariants(aircraft: &System, t: f64, y: &[f64], y_dot: &[f64], pitch: f64) -> (f64, [[f64; 3]; 3]) {
     let state: Vec<D> = y.iter().zip(y_dot).map(|(&re, &rate)| D { re, eps: [rate] }).collect();
     let body: Matrix3<D> = rot_ib([state[6], state[7], state[8], state[9]]).rows;
     let origin = [state[10], state[11], state[12]];
-    let rotor = &aircraft.rotor;
+    let rotor = aircraft.main();
     let hub = add(origin, times(&body, rotor.position.map(D::cst)));
     let hub_attitude = product(&body, &rotor.rot_hb::<D>().transposed().rows);
 
     // airframe
-    let a = &aircraft.airframe.mass;
+    let a = &aircraft.carrier.airframe().unwrap().mass;
     let cg = add(origin, times(&body, a.cg.map(D::cst)));
     let (place, velocity) = (cg.map(|x| x.re), cg.map(|x| x.eps[0]));
     let omega = [y[3], y[4], y[5]];
@@ -44,7 +45,7 @@ fn invariants(aircraft: &Aircraft, t: f64, y: &[f64], y_dot: &[f64], pitch: f64)
     let mut first = scaled(place, a.mass);
     let mut strain = 0.0;
     for b in 0..rotor.n_blades {
-        let start = aircraft.layout.modal(b).start;
+        let start = aircraft.layout.main().modal(b).start;
         let q: [D; 5] = std::array::from_fn(|i| state[start + i]);
         let psi = D { re: rotor.azimuth(rotor.omega * t, b), eps: [rotor.omega] };
         for p in &rotor.blade.structure {
@@ -71,14 +72,14 @@ struct Balance {
 }
 
 /// Errors after one revolution in `n` Runge-Kutta steps.
-fn fly(aircraft: &Aircraft, n: usize) -> Balance {
+fn fly(aircraft: &System, n: usize) -> Balance {
     let pitch = 0.3;
     let inputs = inputs([0.0, 0.0, pitch, 0.0], HeldInflow::Vacuum);
     let (mut y, _) = random_state(aircraft, &mut Random::new(11));
-    let h = std::f64::consts::TAU / aircraft.rotor.omega / n as f64;
+    let h = std::f64::consts::TAU / aircraft.main().omega / n as f64;
     let slope = |t: f64, y: &[f64]| {
         let y_dot = rates(aircraft, &inputs, t, y);
-        let power = aircraft.outputs(t, y, &y_dot, &inputs).power[0];
+        let power = aircraft.outputs(&at(t, y, &y_dot, &inputs)).rotors[0].power;
         (y_dot, power)
     };
     let at = |t: f64, y: &[f64]| invariants(aircraft, t, y, &slope(t, y).0, pitch);
@@ -101,7 +102,7 @@ fn fly(aircraft: &Aircraft, n: usize) -> Balance {
     let t = n as f64 * h;
     let (energy_end, [momentum_end, moment_end, _]) = at(t, &y);
     // gravity: P grows by M g t, the moment by the first moment of mass along the free path
-    let mass = aircraft.airframe.gross_mass;
+    let mass = aircraft.carrier.airframe().unwrap().gross_mass;
     let weight = [0.0, 0.0, aircraft.gravity];
     let expected_momentum = add(momentum, scaled(weight, mass * t));
     let path = add(scaled(first, t), scaled(momentum, t * t / 2.0));
@@ -146,8 +147,8 @@ fn free_fall_is_felt_by_no_part() {
     let n = aircraft.layout.len();
     let (mut y, _) = random_state(&aircraft, &mut Random::new(12));
     y[..6].fill(0.0);
-    let modal: Vec<usize> = (0..4).flat_map(|b| aircraft.layout.modal(b)).collect();
-    let rate: Vec<usize> = (0..4).flat_map(|b| aircraft.layout.modal_rate(b)).collect();
+    let modal: Vec<usize> = (0..4).flat_map(|b| aircraft.layout.main().modal(b)).collect();
+    let rate: Vec<usize> = (0..4).flat_map(|b| aircraft.layout.main().modal_rate(b)).collect();
     for i in modal.iter().chain(&rate) {
         y[*i] = 0.0;
     }
@@ -155,8 +156,8 @@ fn free_fall_is_felt_by_no_part() {
     let zero = vec![0.0; n];
     let (mut f, mut slopes) = (vec![0.0; n], vec![0.0; n * n]);
     for _ in 0..20 {
-        weightless.residual(0.0, &y, &zero, &inputs, &mut f);
-        weightless.jacobian(0.0, &y, &zero, &inputs, 1.0, 0.0, &mut slopes);
+        weightless.residual(&at(0.0, &y, &zero, &inputs), &mut f);
+        weightless.jacobian(&at(0.0, &y, &zero, &inputs), 1.0, 0.0, &mut slopes);
         let matrix = DMatrix::from_fn(20, 20, |i, j| slopes[rate[i] * n + modal[j]]);
         let step = matrix.lu().solve(&DVector::from_fn(20, |i, _| f[rate[i]])).unwrap();
         for (i, s) in modal.iter().zip(step.iter()) {
@@ -169,14 +170,14 @@ fn free_fall_is_felt_by_no_part() {
     let fall = relative_error(&y_dot[..3], &down.array());
     let turning = y_dot[3..6].iter().fold(0f64, |m, v| m.max(v.abs()));
     let blades = rate.iter().fold(0f64, |m, i| m.max(y_dot[*i].abs()));
-    let loads = aircraft.outputs(0.0, &y, &y_dot, &inputs);
+    let loads = aircraft.outputs(&at(0.0, &y, &y_dot, &inputs)).rotors.swap_remove(0);
     println!("fall {fall:.1e}, turning {turning:.1e} rad/s2, blades {blades:.1e} m/s2");
     assert!(fall < 1e-12 && turning < 1e-10 && blades < 1e-8);
     assert!(loads.hub_force.iter().all(|f| f.abs() < 1e-6), "{:?}", loads.hub_force);
     // and held up, the blades weigh
-    aircraft.residual(0.0, &y, &zero, &inputs, &mut f);
+    aircraft.residual(&at(0.0, &y, &zero, &inputs), &mut f);
     assert!(rate.iter().any(|i| f[*i].abs() > 1.0));
-    let held = aircraft.outputs(0.0, &y, &zero, &inputs).hub_force;
-    let weight = 4.0 * aircraft.rotor.blade.mass * 9.80665;
+    let held = aircraft.outputs(&at(0.0, &y, &zero, &inputs)).rotors[0].hub_force;
+    let weight = 4.0 * aircraft.main().blade.mass * 9.80665;
     assert!((held.iter().map(|f| f * f).sum::<f64>().sqrt() / weight - 1.0).abs() < 1e-9);
 }

@@ -1,6 +1,6 @@
 //! Rigid-body motion of the airframe against solutions integrated to 1e-12 (data file D01_rigid_body.toml).
 
-use wakeflight::airframe::mass::{AirframeMass, MassProperties};
+use wakeflight::airframe::mass::{AirframeMass, BladesAtHub, MassProperties};
 use wakeflight::numerics::frames::{Body, Inertial, Vec3, quaternion, rot_ib};
 use wakeflight::numerics::scalar::Dual;
 
@@ -9,7 +9,7 @@ const G: f64 = 32.174;
 
 fn body(blade_mass: f64, hub: [f64; 3]) -> AirframeMass {
     let properties = MassProperties { gross_mass: 500.0, inertia: [4659.0, 38512.0, 36796.0, 1882.0] };
-    AirframeMass::new(&properties, hub, 4, blade_mass).unwrap()
+    AirframeMass::new(&properties, &[BladesAtHub { hub, mass: 4.0 * blade_mass }]).unwrap()
 }
 
 /// Accelerations that make the residual vanish: it is linear in them, so six directions give the matrix.

@@ -2,11 +2,12 @@
 
 use super::fuselage::Fuselage;
 use super::interference::{FuselageWash, Interference};
-use super::mass::{AirframeMass, MassError, MassProperties};
+use super::mass::{AirframeMass, BladesAtHub, MassError, MassProperties};
 use super::tail::{StabilatorSchedule, Surface};
 use super::tail_rotor::TailRotor;
 use crate::numerics::frames::{Body, Hub, Vec3};
 use crate::numerics::scalar::Real;
+use crate::rotor::sense::Sense;
 
 /// Density at sea level of the standard atmosphere [kg/m3].
 const SEA_LEVEL_DENSITY: f64 = 1.225;
@@ -30,12 +31,12 @@ pub struct Airframe {
     pub stabilator_schedule: Option<StabilatorSchedule>,
     /// Vertical tail.
     pub fin: Option<Surface>,
-    /// Tail rotor.
-    pub tail_rotor: Option<TailRotor>,
     /// Washes.
     pub interference: Option<Interference>,
     /// Accessory power [W].
     pub accessory_power: f64,
+    /// Clockwise: the air loads are those of the mirror image of the parts.
+    pub hand: Sense,
 }
 
 /// What the main rotor does to the airframe's air.
@@ -51,37 +52,47 @@ pub struct RotorEffect<S: Copy> {
     pub tip_speed: f64,
 }
 
-/// Settings of the tail.
+/// Motion of the airframe through the air, body axes.
 #[derive(Clone, Copy, Debug)]
-pub struct TailControls<S> {
-    /// Stabilator incidence [rad].
-    pub stabilator_incidence: S,
-    /// Tail-rotor pitch from the pedal [rad].
-    pub theta_tr: S,
-    /// Tail-rotor inflow.
-    pub tail_inflow: S,
+pub struct AirMotion<S> {
+    /// Velocity of the origin [m/s].
+    pub velocity: Vec3<S, Body>,
+    /// Rates [rad/s].
+    pub rates: Vec3<S, Body>,
+    /// Density [kg/m3].
+    pub density: f64,
+}
+
+/// Pitch by the controls [rad] and inflow of a closed-form rotor.
+#[derive(Clone, Copy, Debug)]
+pub struct ClosedFormState<S> {
+    /// Pitch [rad].
+    pub theta: S,
+    /// Inflow.
+    pub inflow: S,
 }
 
 /// Air loads on the body origin.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct AirLoads<S: Copy> {
     /// Force [N].
     pub force: Vec3<S, Body>,
     /// Moment [N m].
     pub moment: Vec3<S, Body>,
-    /// Tail-rotor power [W].
-    pub tail_rotor_power: S,
-    /// Rate of the tail-rotor inflow [1/s].
-    pub tail_inflow_rate: S,
+    /// Power of closed-form rotors [W].
+    pub closed_power: S,
+    /// Rates of their inflow [1/s].
+    pub closed_inflow_rate: Vec<S>,
 }
 
 impl<S: Real> AirLoads<S> {
-    fn none() -> Self {
+    /// No air, with `n_closed` closed-form rotors at rest.
+    pub fn none(n_closed: usize) -> Self {
         Self {
             force: Vec3::zero(),
             moment: Vec3::zero(),
-            tail_rotor_power: S::zero(),
-            tail_inflow_rate: S::zero(),
+            closed_power: S::zero(),
+            closed_inflow_rate: vec![S::zero(); n_closed],
         }
     }
     fn add(&mut self, position: [f64; 3], force: Vec3<S, Body>) {
@@ -103,18 +114,18 @@ pub struct Parts {
     pub stabilator_schedule: Option<StabilatorSchedule>,
     /// Vertical tail.
     pub fin: Option<Surface>,
-    /// Tail rotor.
-    pub tail_rotor: Option<TailRotor>,
     /// Washes.
     pub interference: Option<Interference>,
     /// Accessory power [W].
     pub accessory_power: f64,
+    /// Whether the parts are those of the mirror image.
+    pub mirrored: bool,
 }
 
 impl Airframe {
-    /// Assemble; the blades' mass is taken out at the hub.
-    pub fn new(parts: Parts, hub: [f64; 3], n_blades: usize, blade_mass: f64) -> Result<Self, MassError> {
-        let mass = AirframeMass::new(&parts.mass, hub, n_blades, blade_mass)?;
+    /// Assemble; the blades' mass is taken out at the hubs.
+    pub fn new(parts: Parts, blades: &[BladesAtHub]) -> Result<Self, MassError> {
+        let mass = AirframeMass::new(&parts.mass, blades)?;
         let [ixx, iyy, izz, _] = parts.mass.inertia;
         Ok(Self {
             mass,
@@ -124,22 +135,24 @@ impl Airframe {
             stabilator: parts.stabilator,
             stabilator_schedule: parts.stabilator_schedule,
             fin: parts.fin,
-            tail_rotor: parts.tail_rotor,
             interference: parts.interference,
             accessory_power: parts.accessory_power,
+            hand: if parts.mirrored { Sense::Clockwise } else { Sense::CounterClockwise },
         })
     }
 
-    /// Air loads for body velocity [m/s] and rates [rad/s].
-    pub fn air_loads<S: Real>(
+    /// Air loads of fuselage, tail surfaces and closed-form rotors, each of these with its state.
+    pub fn air_loads<'a, S: Real>(
         &self,
-        velocity: Vec3<S, Body>,
-        rates: Vec3<S, Body>,
+        motion: &AirMotion<S>,
         rotor: &RotorEffect<S>,
-        controls: &TailControls<S>,
-        density: f64,
+        stabilator_incidence: S,
+        closed: impl ExactSizeIterator<Item = (&'a TailRotor, ClosedFormState<S>)>,
     ) -> AirLoads<S> {
-        let mut total = AirLoads::none();
+        let (velocity, rates) = (self.hand.polar(motion.velocity), self.hand.axial(motion.rates));
+        let density = motion.density;
+        let mut total = AirLoads::none(0);
+        total.closed_inflow_rate.reserve(closed.len());
         let swing = |position: [f64; 3]| rates.cross(Vec3::cst(position));
         let wash = self.interference.as_ref().map(|i| {
             let mu = rotor.hub_velocity.scaled(1.0 / rotor.tip_speed);
@@ -165,10 +178,7 @@ impl Airframe {
             if let Some(w) = &wash {
                 local += w.stabilator;
             }
-            total.add(
-                stabilator.position,
-                stabilator.stabilator_force(local, controls.stabilator_incidence, density),
-            );
+            total.add(stabilator.position, stabilator.stabilator_force(local, stabilator_incidence, density));
         }
         if let Some(fin) = &self.fin {
             let mut local = fuselage_wash.at_fin(velocity) + swing(fin.position);
@@ -177,14 +187,15 @@ impl Airframe {
             }
             total.add(fin.position, fin.fin_force(local, density));
         }
-        if let Some(tail_rotor) = &self.tail_rotor {
+        for (tail_rotor, state) in closed {
             let local = fuselage_wash.at_tail_rotor(velocity) + swing(tail_rotor.position);
-            let loads =
-                tail_rotor.evaluate(local, controls.theta_tr, controls.tail_inflow, density, velocity.x);
+            let loads = tail_rotor.evaluate(local, state.theta, state.inflow, density, velocity.x);
             total.add(tail_rotor.position, loads.force);
-            total.tail_rotor_power = loads.power;
-            total.tail_inflow_rate = loads.lambda_i_dot;
+            total.closed_power += loads.power;
+            total.closed_inflow_rate.push(loads.lambda_i_dot);
         }
+        total.force = self.hand.polar(total.force);
+        total.moment = self.hand.axial(total.moment);
         total
     }
 

@@ -15,6 +15,15 @@ pub struct MassProperties {
     pub inertia: [f64; 4],
 }
 
+/// All blades of a rotor as a point mass at its hub.
+#[derive(Clone, Copy, Debug)]
+pub struct BladesAtHub {
+    /// Hub from the body origin [m].
+    pub hub: [f64; 3],
+    /// Mass of all blades [kg].
+    pub mass: f64,
+}
+
 /// Mass properties no body can have.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum MassError {
@@ -59,14 +68,9 @@ fn times<S: Real>(matrix: &[[f64; 3]; 3], v: Vec3<S, Body>) -> Vec3<S, Body> {
 }
 
 impl AirframeMass {
-    /// Takes `n_blades` of `blade_mass` [kg] at `hub_position` [m from the origin] off the gross mass.
-    pub fn new(
-        properties: &MassProperties,
-        hub_position: [f64; 3],
-        n_blades: usize,
-        blade_mass: f64,
-    ) -> Result<Self, MassError> {
-        let blades = n_blades as f64 * blade_mass;
+    /// Takes the blades of every rotor off the gross mass.
+    pub fn new(properties: &MassProperties, rotors: &[BladesAtHub]) -> Result<Self, MassError> {
+        let blades: f64 = rotors.iter().map(|r| r.mass).sum();
         let mass = properties.gross_mass - blades;
         // written so that NaN is refused
         if !(mass > 0.0 && mass.is_finite()) {
@@ -76,7 +80,7 @@ impl AirframeMass {
         if !(ixx > 0.0 && iyy > 0.0 && ixx * izz > ixz * ixz) {
             return Err(MassError::Inertia(ixx, iyy, izz, ixz));
         }
-        let cg = hub_position.map(|r| -blades / mass * r);
+        let cg = std::array::from_fn(|i| rotors.iter().map(|r| -r.mass / mass * r.hub[i]).sum());
         let inertia_cg = [[ixx, 0.0, -ixz], [0.0, iyy, 0.0], [-ixz, 0.0, izz]];
         let offset = point_inertia(mass, cg);
         let inertia_origin =
@@ -122,7 +126,11 @@ mod tests {
     fn uh60(blade_mass: f64) -> AirframeMass {
         let properties =
             MassProperties { gross_mass: 7257.4779, inertia: [6316.7558, 52215.261, 49888.677, 2551.6494] };
-        AirframeMass::new(&properties, hub(), 4, blade_mass).unwrap()
+        AirframeMass::new(&properties, &blades(4.0 * blade_mass)).unwrap()
+    }
+
+    fn blades(mass: f64) -> [BladesAtHub; 1] {
+        [BladesAtHub { hub: hub(), mass }]
     }
 
     fn hub() -> [f64; 3] {
@@ -167,9 +175,9 @@ mod tests {
     #[test]
     fn impossible_masses_are_refused() {
         let p = MassProperties { gross_mass: 400.0, inertia: [1.0, 1.0, 1.0, 0.0] };
-        assert!(matches!(AirframeMass::new(&p, hub(), 4, 100.0), Err(MassError::TooLight { .. })));
+        assert!(matches!(AirframeMass::new(&p, &blades(400.0)), Err(MassError::TooLight { .. })));
         let p = MassProperties { gross_mass: 400.0, inertia: [1.0, 1.0, 1.0, 1.5] };
-        assert!(matches!(AirframeMass::new(&p, hub(), 0, 100.0), Err(MassError::Inertia(..))));
+        assert!(matches!(AirframeMass::new(&p, &[]), Err(MassError::Inertia(..))));
     }
 
     #[test]

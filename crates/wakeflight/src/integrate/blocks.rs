@@ -1,9 +1,9 @@
-//! Linear systems of the aircraft: blades coupled through the body alone, eliminated one by one.
+//! Linear systems of the system: blades coupled through the shared states alone, eliminated one by one.
 //!
-//! c dF/dy_dot + dF/dy: a blade's rows hold its own columns and the body's. With the rows of q_dot = s the modal rates go
-//! first (ds = c dq - r_q), then each blade's coordinates, and the body is left with the Schur complement of all blades.
+//! c dF/dy_dot + dF/dy: a blade's rows hold its own columns and the shared ones. With the rows of q_dot = s the modal rates go
+//! first (ds = c dq - r_q), then each blade's coordinates, and the shared states are left with the Schur complement of all blades.
 
-use crate::aircraft::jacobian::{Block, Slopes};
+use crate::system::slopes::{Block, Slopes};
 use nalgebra::ComplexField;
 
 /// Numbers a system is solved in: real or complex.
@@ -20,14 +20,14 @@ struct BladeFactor<T> {
     /// LU of the blade's own block (n_modes, n_modes).
     own: Vec<T>,
     pivots: Vec<usize>,
-    /// own^-1 times the body columns, column after column (n_body, n_modes).
-    by_body: Vec<T>,
-    /// Body rows by the blade's unknowns (n_body, n_modes).
-    on_body: Vec<T>,
+    /// own^-1 times the shared columns, column after column (n_shared, n_modes).
+    by_shared: Vec<T>,
+    /// Shared rows by the blade's unknowns (n_shared, n_modes).
+    on_shared: Vec<T>,
     /// Modal rows by modal rates (n_modes, n_modes).
     by_rate: Vec<T>,
-    /// Body rows by modal rates (n_body, n_modes).
-    rate_on_body: Vec<T>,
+    /// Shared rows by modal rates (n_shared, n_modes).
+    rate_on_shared: Vec<T>,
     right: Vec<T>,
 }
 
@@ -45,7 +45,7 @@ enum Kind<T> {
 pub struct Factor<T> {
     kind: Kind<T>,
     blades: Vec<BladeFactor<T>>,
-    body: Vec<T>,
+    shared: Vec<T>,
     pivots: Vec<usize>,
     right: Vec<T>,
 }
@@ -53,21 +53,21 @@ pub struct Factor<T> {
 impl<T: Number> Factor<T> {
     /// Room for systems of this shape.
     pub fn new(slopes: &Slopes) -> Self {
-        let (m, n) = (slopes.layout().n_modes, slopes.body.len());
+        let n = slopes.shared.len();
         let zeros = |k: usize| vec![T::zero(); k];
-        let blade = BladeFactor {
+        let blade = |m: usize| BladeFactor {
             own: zeros(m * m),
             pivots: vec![0; m],
-            by_body: zeros(m * n),
-            on_body: zeros(m * n),
+            by_shared: zeros(m * n),
+            on_shared: zeros(m * n),
             by_rate: zeros(m * m),
-            rate_on_body: zeros(m * n),
+            rate_on_shared: zeros(m * n),
             right: zeros(m),
         };
         Self {
             kind: Kind::Mass,
-            blades: vec![blade; slopes.blades.len()],
-            body: zeros(n * n),
+            blades: slopes.blades.iter().map(|b| blade(b.n_modes())).collect(),
+            shared: zeros(n * n),
             pivots: vec![0; n],
             right: zeros(n),
         }
@@ -78,19 +78,23 @@ impl<T: Number> Factor<T> {
         self.kind = Kind::Mass;
         for (f, b) in self.blades.iter_mut().zip(&slopes.blades) {
             copy(&mut f.own, &b.own_dot);
-            copy_transposed(&mut f.by_body, |i, j| T::from_real(b.by_body_dot.at(i, j)), b.own_dot.columns);
-            copy(&mut f.on_body, &b.on_body_dot);
+            copy_transposed(
+                &mut f.by_shared,
+                |i, j| T::from_real(b.by_shared_dot.at(i, j)),
+                b.own_dot.columns,
+            );
+            copy(&mut f.on_shared, &b.on_shared_dot);
         }
-        copy(&mut self.body, &slopes.body_dot);
+        copy(&mut self.shared, &slopes.shared_dot);
         self.eliminate()
     }
 
     /// Factors c dF/dy_dot + dF/dy.
     pub fn newton(&mut self, slopes: &Slopes, c: T) -> Result<(), Singular> {
         self.kind = Kind::Newton(c);
-        let m = slopes.layout().n_modes;
         let real = T::from_real;
         for (f, b) in self.blades.iter_mut().zip(&slopes.blades) {
+            let m = b.n_modes();
             for i in 0..m {
                 for j in 0..m {
                     let by_rate = real(b.own.at(i, m + j)) + c * real(b.own_dot.at(i, j));
@@ -98,77 +102,75 @@ impl<T: Number> Factor<T> {
                     f.own[i * m + j] = real(b.own.at(i, j)) + c * by_rate;
                 }
             }
-            for i in 0..slopes.body.len() {
+            for i in 0..slopes.shared.len() {
                 for j in 0..m {
-                    let by_rate = real(b.on_body.at(i, m + j)) + c * real(b.on_body_dot.at(i, j));
-                    f.rate_on_body[i * m + j] = by_rate;
-                    f.on_body[i * m + j] = real(b.on_body.at(i, j)) + c * by_rate;
+                    let by_rate = real(b.on_shared.at(i, m + j)) + c * real(b.on_shared_dot.at(i, j));
+                    f.rate_on_shared[i * m + j] = by_rate;
+                    f.on_shared[i * m + j] = real(b.on_shared.at(i, j)) + c * by_rate;
                 }
             }
-            let both = |i, j| real(b.by_body.at(i, j)) + c * real(b.by_body_dot.at(i, j));
-            copy_transposed(&mut f.by_body, both, m);
+            let both = |i, j| real(b.by_shared.at(i, j)) + c * real(b.by_shared_dot.at(i, j));
+            copy_transposed(&mut f.by_shared, both, m);
         }
-        for (k, v) in self.body.iter_mut().enumerate() {
-            *v = real(slopes.body_y.values[k]) + c * real(slopes.body_dot.values[k]);
+        for (k, v) in self.shared.iter_mut().enumerate() {
+            *v = real(slopes.shared_y.values[k]) + c * real(slopes.shared_dot.values[k]);
         }
         self.eliminate()
     }
 
-    /// Factors every blade and the Schur complement of the body.
+    /// Factors every blade and the Schur complement of the shared states.
     fn eliminate(&mut self) -> Result<(), Singular> {
         let n = self.pivots.len();
         for f in &mut self.blades {
             let m = f.pivots.len();
             factorise(m, &mut f.own, &mut f.pivots)?;
-            for column in f.by_body.chunks_exact_mut(m) {
+            for column in f.by_shared.chunks_exact_mut(m) {
                 substitute(m, &f.own, &f.pivots, column);
             }
-            for (i, row) in f.on_body.chunks_exact(m).enumerate() {
+            for (i, row) in f.on_shared.chunks_exact(m).enumerate() {
                 // rows of the kinematics and of states that no blade feels are empty
                 if row.iter().all(|v| *v == T::zero()) {
                     continue;
                 }
-                for (j, column) in f.by_body.chunks_exact(m).enumerate() {
-                    self.body[i * n + j] -= product(row, column);
+                for (j, column) in f.by_shared.chunks_exact(m).enumerate() {
+                    self.shared[i * n + j] -= product(row, column);
                 }
             }
         }
-        factorise(n, &mut self.body, &mut self.pivots)
+        factorise(n, &mut self.shared, &mut self.pivots)
     }
 
     /// Solves in place; `x` holds the right-hand side in the order of y.
     pub fn solve(&mut self, slopes: &Slopes, x: &mut [T]) {
-        let layout = slopes.layout();
-        let m = layout.n_modes;
-        for (r, &i) in self.right.iter_mut().zip(&slopes.body) {
+        for (r, &i) in self.right.iter_mut().zip(&slopes.shared) {
             *r = x[i];
         }
-        for (b, f) in self.blades.iter_mut().enumerate() {
-            let (q, s) = (layout.modal(b), layout.modal_rate(b));
-            f.right.copy_from_slice(&x[s]);
+        for (f, b) in self.blades.iter_mut().zip(&slopes.blades) {
+            let m = b.n_modes();
+            f.right.copy_from_slice(&x[b.modal_rate.clone()]);
             if let Kind::Newton(_) = self.kind {
-                let r_q = &x[q];
+                let r_q = &x[b.modal.clone()];
                 for (r, row) in f.right.iter_mut().zip(f.by_rate.chunks_exact(m)) {
                     *r += product(row, r_q);
                 }
-                for (r, row) in self.right.iter_mut().zip(f.rate_on_body.chunks_exact(m)) {
+                for (r, row) in self.right.iter_mut().zip(f.rate_on_shared.chunks_exact(m)) {
                     *r += product(row, r_q);
                 }
             }
             substitute(m, &f.own, &f.pivots, &mut f.right);
-            for (r, row) in self.right.iter_mut().zip(f.on_body.chunks_exact(m)) {
+            for (r, row) in self.right.iter_mut().zip(f.on_shared.chunks_exact(m)) {
                 *r -= product(row, &f.right);
             }
         }
-        substitute(self.pivots.len(), &self.body, &self.pivots, &mut self.right);
-        for (r, &i) in self.right.iter().zip(&slopes.body) {
+        substitute(self.pivots.len(), &self.shared, &self.pivots, &mut self.right);
+        for (r, &i) in self.right.iter().zip(&slopes.shared) {
             x[i] = *r;
         }
-        for (b, f) in self.blades.iter_mut().enumerate() {
-            let (q, s) = (layout.modal(b).start, layout.modal_rate(b).start);
-            for (body, column) in self.right.iter().zip(f.by_body.chunks_exact(m)) {
+        for (f, b) in self.blades.iter_mut().zip(&slopes.blades) {
+            let (q, s, m) = (b.modal.start, b.modal_rate.start, b.n_modes());
+            for (shared, column) in self.right.iter().zip(f.by_shared.chunks_exact(m)) {
                 for (r, v) in f.right.iter_mut().zip(column) {
-                    *r -= *v * *body;
+                    *r -= *v * *shared;
                 }
             }
             for i in 0..m {

@@ -5,9 +5,10 @@
 //! weights it is halved, which also catches a step that is too long for the method to be stable [cash1990].
 
 use super::fixed::Counters;
-use crate::aircraft::model::{Aircraft, Inputs};
-use crate::aircraft::rates::{NoInertia, RigidRates};
-use crate::aircraft::state::Layout;
+use crate::system::instant::Inputs;
+use crate::system::layout::Layout;
+use crate::system::model::System;
+use crate::system::rates::{NoInertia, RigidRates};
 use thiserror::Error;
 
 const STAGES: usize = 6;
@@ -52,6 +53,7 @@ pub struct ExplicitFailure {
 /// Integration with steps that the caller sets, and all the room it needs.
 #[derive(Clone, Debug)]
 pub struct ExplicitStep {
+    layout: Layout,
     rates: RigidRates,
     rtol: f64,
     atol: Vec<f64>,
@@ -67,10 +69,11 @@ pub struct ExplicitStep {
 
 impl ExplicitStep {
     /// At state `y` and time `t` [s]; `atol` is the absolute tolerance of every state. None where the blades bend.
-    pub fn new(aircraft: &Aircraft, t: f64, y: &[f64], rtol: f64, atol: &[f64]) -> Option<Self> {
+    pub fn new(system: &System, t: f64, y: &[f64], rtol: f64, atol: &[f64]) -> Option<Self> {
         let n = y.len();
         Some(Self {
-            rates: RigidRates::new(aircraft)?,
+            layout: system.layout.clone(),
+            rates: RigidRates::new(system)?,
             rtol,
             atol: atol.to_vec(),
             t,
@@ -97,11 +100,11 @@ impl ExplicitStep {
     }
 
     /// Finds the rate that satisfies F = 0 with `inputs` from now on.
-    pub fn prepare(&mut self, aircraft: &Aircraft, inputs: &Inputs) -> Result<(), ExplicitFailure> {
-        let found = self.rates.find(aircraft, self.t, &self.y, inputs, &mut self.k[0]);
+    pub fn prepare(&mut self, system: &System, inputs: &Inputs) -> Result<(), ExplicitFailure> {
+        let found = self.rates.find(system, (self.t, &self.y), inputs, &mut self.k[0]);
         self.counters.residual_evaluations += 1;
         if found.is_err() || !self.k[0].iter().all(|v| v.is_finite()) {
-            return Err(self.failure(aircraft, "a rate of state is not finite"));
+            return Err(self.failure(system, "a rate of state is not finite"));
         }
         self.prepared = true;
         Ok(())
@@ -110,7 +113,7 @@ impl ExplicitStep {
     /// Integrates to `t1` [s] in `parts` equal steps with `inputs` held.
     pub fn advance(
         &mut self,
-        aircraft: &Aircraft,
+        system: &System,
         t1: f64,
         inputs: &Inputs,
         parts: usize,
@@ -118,23 +121,23 @@ impl ExplicitStep {
         let t0 = self.t;
         for part in 1..=parts {
             let end = if part == parts { t1 } else { t0 + (t1 - t0) * part as f64 / parts as f64 };
-            self.step(aircraft, end, inputs, 0)?;
+            self.step(system, end, inputs, 0)?;
         }
         Ok(())
     }
 
     fn step(
         &mut self,
-        aircraft: &Aircraft,
+        system: &System,
         t1: f64,
         inputs: &Inputs,
         halvings: u32,
     ) -> Result<(), ExplicitFailure> {
         if !self.prepared {
-            self.prepare(aircraft, inputs)?;
+            self.prepare(system, inputs)?;
         }
         let h = t1 - self.t;
-        let taken = self.stages(aircraft, h, inputs);
+        let taken = self.stages(system, h, inputs);
         // written so that NaN is refused
         let reason = match taken {
             Ok(()) if self.difference_in_weights() <= GUARD => {
@@ -145,21 +148,21 @@ impl ExplicitStep {
             Err(NoInertia) => "a stage left the finite numbers",
         };
         if halvings >= MAX_HALVINGS {
-            return Err(self.failure(aircraft, reason));
+            return Err(self.failure(system, reason));
         }
         self.counters.halvings += 1;
         let middle = 0.5 * (self.t + t1);
-        self.step(aircraft, middle, inputs, halvings + 1)?;
-        self.step(aircraft, t1, inputs, halvings + 1)
+        self.step(system, middle, inputs, halvings + 1)?;
+        self.step(system, t1, inputs, halvings + 1)
     }
 
     /// Rates at all stages but the first, and the difference of the two orders.
-    fn stages(&mut self, aircraft: &Aircraft, h: f64, inputs: &Inputs) -> Result<(), NoInertia> {
+    fn stages(&mut self, system: &System, h: f64, inputs: &Inputs) -> Result<(), NoInertia> {
         for s in 1..STAGES {
             self.stage.copy_from_slice(&self.y);
             add(&mut self.stage, &self.k, &A[s], h);
             let (_, rest) = self.k.split_at_mut(s);
-            self.rates.find(aircraft, self.t + C[s] * h, &self.stage, inputs, &mut rest[0])?;
+            self.rates.find(system, (self.t + C[s] * h, &self.stage), inputs, &mut rest[0])?;
         }
         self.counters.residual_evaluations += STAGES as u64 - 1;
         self.difference.fill(0.0);
@@ -179,17 +182,13 @@ impl ExplicitStep {
 
     fn accept(&mut self, h: f64, t1: f64) {
         add(&mut self.y, &self.k, &B, h);
-        // the length of the quaternion has no meaning and drifts with the error of the method
-        let norm = self.y[Layout::ATTITUDE].iter().map(|q| q * q).sum::<f64>().sqrt();
-        for q in &mut self.y[Layout::ATTITUDE] {
-            *q /= norm;
-        }
+        self.layout.normalise(&mut self.y);
         self.t = t1;
         self.prepared = false;
         self.counters.steps += 1;
     }
 
-    fn failure(&self, aircraft: &Aircraft, reason: &'static str) -> ExplicitFailure {
+    fn failure(&self, system: &System, reason: &'static str) -> ExplicitFailure {
         let size = |i: usize| {
             let v = self.weighted(i).abs();
             if v.is_nan() { f64::INFINITY } else { v }
@@ -200,9 +199,9 @@ impl ExplicitStep {
             .unwrap_or_else(|| (0..self.y.len()).max_by(|&a, &b| size(a).total_cmp(&size(b))).unwrap_or(0));
         ExplicitFailure {
             t: self.t,
-            azimuth: (aircraft.rotor.omega * self.t).to_degrees().rem_euclid(360.0),
+            azimuth: system.azimuth(0, self.t, 0).to_degrees().rem_euclid(360.0),
             reason,
-            state: aircraft.layout.names().swap_remove(worst).0,
+            state: system.layout.names().swap_remove(worst).0,
         }
     }
 }

@@ -8,9 +8,10 @@
 use super::blocks::{Factor, Singular};
 use super::linearised::Linearised;
 use super::radau::{Radau, STAGES};
-use crate::aircraft::jacobian::Slopes;
-use crate::aircraft::model::{Aircraft, Inputs};
-use crate::aircraft::state::Layout;
+use crate::system::instant::{Inputs, Instant};
+use crate::system::layout::Layout;
+use crate::system::model::System;
+use crate::system::slopes::Slopes;
 use nalgebra::Complex;
 use thiserror::Error;
 
@@ -58,6 +59,7 @@ pub struct Counters {
 /// Integration with steps that the caller sets, and all the room it needs.
 #[derive(Clone, Debug)]
 pub struct FixedStep {
+    layout: Layout,
     method: Radau,
     rtol: f64,
     atol: Vec<f64>,
@@ -90,11 +92,12 @@ pub struct FixedStep {
 
 impl FixedStep {
     /// At state `y` and time `t` [s]; `atol` is the absolute tolerance of every state.
-    pub fn new(layout: Layout, t: f64, y: &[f64], rtol: f64, atol: &[f64], newton_share: f64) -> Self {
+    pub fn new(layout: &Layout, t: f64, y: &[f64], rtol: f64, atol: &[f64], newton_share: f64) -> Self {
         let n = layout.len();
         let linear = Linearised::new(layout);
         let zeros = || std::array::from_fn(|_| vec![0.0; n]);
         Self {
+            layout: layout.clone(),
             method: Radau::default(),
             rtol,
             atol: atol.to_vec(),
@@ -143,30 +146,30 @@ impl FixedStep {
     }
 
     /// Finds the rate that satisfies F = 0 with `inputs` from now on, and linearises where dF/dy is too old.
-    pub fn prepare(&mut self, aircraft: &Aircraft, inputs: &Inputs) -> Result<(), StepFailure> {
+    pub fn prepare(&mut self, system: &System, inputs: &Inputs) -> Result<(), StepFailure> {
         // a hair more, so that two steps of ten degrees count as twenty
-        let kept = (1.0 + 1e-6) * self.kept / aircraft.rotor.omega;
+        let kept = (1.0 + 1e-6) * self.kept / system.main().omega;
         let renew = self.linearised_at.is_none_or(|t| self.t - t > kept);
-        self.find_rate(aircraft, inputs, renew)
+        self.find_rate(system, inputs, renew)
     }
 
     /// The rate at the present state, with dF/dy there (`renew`) or as it was.
-    fn find_rate(&mut self, aircraft: &Aircraft, inputs: &Inputs, renew: bool) -> Result<(), StepFailure> {
+    fn find_rate(&mut self, system: &System, inputs: &Inputs, renew: bool) -> Result<(), StepFailure> {
         let (t, y, y_dot) = (self.t, &self.y, &mut self.y_dot);
         let solved = if renew {
             self.linearised_at = Some(t);
             self.counters.jacobians += 1;
-            self.linear.consistent(aircraft, t, y, y_dot, inputs)
+            self.linear.consistent(system, (t, y), y_dot, inputs)
         } else {
-            self.linear.consistent_by_mass(aircraft, t, y, y_dot, inputs)
+            self.linear.consistent_by_mass(system, (t, y), y_dot, inputs)
         };
         self.counters.residual_evaluations += 1;
         self.factored = None;
         if solved.is_err() {
-            return Err(self.failure(aircraft, inputs, "the mass matrix is singular or not finite"));
+            return Err(self.failure(system, inputs, "the mass matrix is singular or not finite"));
         }
         if !self.y_dot.iter().all(|v| v.is_finite()) {
-            return Err(self.failure(aircraft, inputs, "a rate of state is not finite"));
+            return Err(self.failure(system, inputs, "a rate of state is not finite"));
         }
         self.prepared = true;
         Ok(())
@@ -175,7 +178,7 @@ impl FixedStep {
     /// Integrates to `t1` [s] in `parts` equal steps with `inputs` held.
     pub fn advance(
         &mut self,
-        aircraft: &Aircraft,
+        system: &System,
         t1: f64,
         inputs: &Inputs,
         parts: usize,
@@ -183,48 +186,42 @@ impl FixedStep {
         let t0 = self.t;
         for part in 1..=parts {
             let end = if part == parts { t1 } else { t0 + (t1 - t0) * part as f64 / parts as f64 };
-            self.step(aircraft, end, inputs, 0)?;
+            self.step(system, end, inputs, 0)?;
         }
         Ok(())
     }
 
-    fn step(
-        &mut self,
-        aircraft: &Aircraft,
-        t1: f64,
-        inputs: &Inputs,
-        halvings: u32,
-    ) -> Result<(), StepFailure> {
+    fn step(&mut self, system: &System, t1: f64, inputs: &Inputs, halvings: u32) -> Result<(), StepFailure> {
         if !self.prepared {
-            self.prepare(aircraft, inputs)?;
+            self.prepare(system, inputs)?;
         }
-        match self.attempt(aircraft, t1, inputs) {
+        match self.attempt(system, t1, inputs) {
             Ok(()) => Ok(()),
             // first with the derivatives of this state, then with shorter steps
             Err(_) if self.linearised_at != Some(self.t) => {
-                self.find_rate(aircraft, inputs, true)?;
-                self.step(aircraft, t1, inputs, halvings)
+                self.find_rate(system, inputs, true)?;
+                self.step(system, t1, inputs, halvings)
             }
-            Err(reason) if halvings >= MAX_HALVINGS => Err(self.failure(aircraft, inputs, reason)),
+            Err(reason) if halvings >= MAX_HALVINGS => Err(self.failure(system, inputs, reason)),
             Err(_) => {
                 self.counters.halvings += 1;
                 self.last_step = None;
                 let middle = 0.5 * (self.t + t1);
-                self.step(aircraft, middle, inputs, halvings + 1)?;
-                self.step(aircraft, t1, inputs, halvings + 1)
+                self.step(system, middle, inputs, halvings + 1)?;
+                self.step(system, t1, inputs, halvings + 1)
             }
         }
     }
 
     /// One step by Newton's iteration; on an error the state is that of before.
-    fn attempt(&mut self, aircraft: &Aircraft, t1: f64, inputs: &Inputs) -> Result<(), &'static str> {
+    fn attempt(&mut self, system: &System, t1: f64, inputs: &Inputs) -> Result<(), &'static str> {
         let h = t1 - self.t;
         self.factor(h).map_err(|Singular| "the system of a step is singular or not finite")?;
         self.predict(h);
         let mut before = f64::INFINITY;
         let mut contraction: f64 = 0.5;
         for iteration in 0..MAX_ITERATIONS {
-            let change = self.iterate(aircraft, h, inputs);
+            let change = self.iterate(system, h, inputs);
             self.counters.newton_iterations += 1;
             if !change.is_finite() {
                 return Err("the Newton iteration left the finite numbers");
@@ -281,7 +278,7 @@ impl FixedStep {
     }
 
     /// One Newton iteration; returns the RMS of the change of the stages over the weights.
-    fn iterate(&mut self, aircraft: &Aircraft, h: f64, inputs: &Inputs) -> f64 {
+    fn iterate(&mut self, system: &System, h: f64, inputs: &Inputs) -> f64 {
         let m = &self.method;
         let n = self.y.len();
         for s in 0..STAGES {
@@ -290,7 +287,8 @@ impl FixedStep {
                 self.rates[s][i] = (0..STAGES).map(|j| m.inverse[s][j] * self.z[j][i]).sum::<f64>() / h;
             }
             let t = self.t + m.c[s] * h;
-            aircraft.residual_of_four(t, &self.stage, &self.rates[s], inputs, &mut self.f[s]);
+            let at = Instant { t, y: &self.stage, y_dot: &self.rates[s], inputs };
+            system.residual_of_four(&at, &mut self.f[s]);
         }
         self.counters.residual_evaluations += STAGES as u64;
         let w = &m.t_inverse;
@@ -326,20 +324,17 @@ impl FixedStep {
             self.y[i] += self.z[STAGES - 1][i];
             self.y_dot[i] = self.rates[STAGES - 1][i];
         }
-        // the length of the quaternion has no meaning and drifts with the error of the method
-        let norm = self.y[Layout::ATTITUDE].iter().map(|q| q * q).sum::<f64>().sqrt();
-        for q in &mut self.y[Layout::ATTITUDE] {
-            *q /= norm;
-        }
+        self.layout.normalise(&mut self.y);
         self.t = t1;
         self.last_step = Some(h);
         self.prepared = false;
         self.counters.steps += 1;
     }
 
-    fn failure(&self, aircraft: &Aircraft, inputs: &Inputs, reason: &'static str) -> StepFailure {
+    fn failure(&self, system: &System, inputs: &Inputs, reason: &'static str) -> StepFailure {
         let mut f = vec![0.0; self.y.len()];
-        aircraft.residual_of_four(self.t, &self.y, &self.y_dot, inputs, &mut f);
+        let at = Instant { t: self.t, y: &self.y, y_dot: &self.y_dot, inputs };
+        system.residual_of_four(&at, &mut f);
         // a state that is not a number makes every equation one: it is the one to name
         let worst = self.y.iter().position(|v| !v.is_finite()).unwrap_or_else(|| {
             let size = |v: f64| if v.is_nan() { f64::INFINITY } else { v.abs() };
@@ -347,25 +342,27 @@ impl FixedStep {
         });
         StepFailure {
             t: self.t,
-            azimuth: (aircraft.rotor.omega * self.t).to_degrees().rem_euclid(360.0),
+            azimuth: system.azimuth(0, self.t, 0).to_degrees().rem_euclid(360.0),
             reason,
             residual: f[worst],
-            equation: aircraft.layout.names().swap_remove(worst).0,
+            equation: system.layout.names().swap_remove(worst).0,
         }
     }
 }
 
-impl Aircraft {
+impl System {
     /// Rate of state that satisfies F = 0 at (t, y): F is linear in it, so one solve with its matrix gives it.
     ///
     /// Fails where the mass matrix is singular, which no blade with mass has.
     pub fn consistent_rate(&self, t: f64, y: &[f64], inputs: &Inputs) -> Result<Vec<f64>, Singular> {
-        let mut slopes = Slopes::new(self.layout);
-        self.mass_slopes(t, y, inputs, &mut slopes);
+        let still = vec![0.0; y.len()];
+        let at = Instant { t, y, y_dot: &still, inputs };
+        let mut slopes = Slopes::new(&self.layout);
+        self.mass_slopes(&at, &mut slopes);
         let mut mass = Factor::new(&slopes);
         mass.mass(&slopes)?;
         let mut rate = vec![0.0; y.len()];
-        self.residual_of_four(t, y, &vec![0.0; y.len()], inputs, &mut rate);
+        self.residual_of_four(&at, &mut rate);
         mass.solve(&slopes, &mut rate);
         rate.iter_mut().for_each(|r| *r = -*r);
         Ok(rate)

@@ -1,9 +1,10 @@
 //! F linearised at one instant: its two matrices, and the rate of state that satisfies F = 0 there.
 
 use super::blocks::{Factor, Singular};
-use crate::aircraft::jacobian::Slopes;
-use crate::aircraft::model::{Aircraft, Inputs};
-use crate::aircraft::state::Layout;
+use crate::system::instant::{Inputs, Instant};
+use crate::system::layout::Layout;
+use crate::system::model::System;
+use crate::system::slopes::Slopes;
 
 /// dF/dy and dF/dy_dot at the instant last asked for, with the room to find them.
 #[derive(Clone, Debug)]
@@ -15,64 +16,64 @@ pub struct Linearised {
 }
 
 impl Linearised {
-    /// Room for an aircraft with this layout.
-    pub fn new(layout: Layout) -> Self {
+    /// Room for a system with this layout.
+    pub fn new(layout: &Layout) -> Self {
         let slopes = Slopes::new(layout);
         Self { mass: Factor::new(&slopes), slopes, f: vec![0.0; layout.len()] }
     }
 
-    /// Linearises at (t, y, y_dot).
-    pub fn renew(&mut self, aircraft: &Aircraft, t: f64, y: &[f64], y_dot: &[f64], inputs: &Inputs) {
-        aircraft.slopes(t, y, y_dot, inputs, &mut self.slopes);
+    /// Linearises at an instant.
+    pub fn renew(&mut self, system: &System, at: &Instant<f64>) {
+        system.slopes(at, &mut self.slopes);
     }
 
-    /// Finds dF/dy_dot at (t, y); dF/dy is left as it was.
-    pub fn renew_mass(&mut self, aircraft: &Aircraft, t: f64, y: &[f64], inputs: &Inputs) {
-        aircraft.mass_slopes(t, y, inputs, &mut self.slopes);
+    /// Finds dF/dy_dot at an instant; dF/dy is left as it was.
+    pub fn renew_mass(&mut self, system: &System, at: &Instant<f64>) {
+        system.mass_slopes(at, &mut self.slopes);
     }
 
     /// Finds dF/dy_dot at (t, y), leaves dF/dy as it was, and corrects `y_dot` as `consistent` does.
     pub fn consistent_by_mass(
         &mut self,
-        aircraft: &Aircraft,
-        t: f64,
-        y: &[f64],
+        system: &System,
+        (t, y): (f64, &[f64]),
         y_dot: &mut [f64],
         inputs: &Inputs,
     ) -> Result<(), Singular> {
-        self.renew_mass(aircraft, t, y, inputs);
-        self.correct(aircraft, t, y, y_dot, inputs)
+        let at = Instant { t, y, y_dot, inputs };
+        self.renew_mass(system, &at);
+        self.correct(system, &at)?;
+        self.take_off(y_dot);
+        Ok(())
     }
 
     /// Linearises at (t, y) and corrects `y_dot` so that F = 0: F is linear in it and the matrix is that of this state,
     /// so one correction is exact. Fails where the mass matrix is singular, which no blade with mass has.
     pub fn consistent(
         &mut self,
-        aircraft: &Aircraft,
-        t: f64,
-        y: &[f64],
+        system: &System,
+        (t, y): (f64, &[f64]),
         y_dot: &mut [f64],
         inputs: &Inputs,
     ) -> Result<(), Singular> {
-        self.renew(aircraft, t, y, y_dot, inputs);
-        self.correct(aircraft, t, y, y_dot, inputs)
+        let at = Instant { t, y, y_dot, inputs };
+        self.renew(system, &at);
+        self.correct(system, &at)?;
+        self.take_off(y_dot);
+        Ok(())
     }
 
-    /// Takes off `y_dot` what F = 0 asks for, by the matrix of this state.
-    fn correct(
-        &mut self,
-        aircraft: &Aircraft,
-        t: f64,
-        y: &[f64],
-        y_dot: &mut [f64],
-        inputs: &Inputs,
-    ) -> Result<(), Singular> {
-        aircraft.residual_of_four(t, y, y_dot, inputs, &mut self.f);
+    /// What F = 0 asks to take off y_dot, by the matrix of this state.
+    fn correct(&mut self, system: &System, at: &Instant<f64>) -> Result<(), Singular> {
+        system.residual_of_four(at, &mut self.f);
         self.mass.mass(&self.slopes)?;
         self.mass.solve(&self.slopes, &mut self.f);
+        Ok(())
+    }
+
+    fn take_off(&self, y_dot: &mut [f64]) {
         for (rate, correction) in y_dot.iter_mut().zip(&self.f) {
             *rate -= correction;
         }
-        Ok(())
     }
 }

@@ -2,7 +2,8 @@
 
 use super::data::RotorData;
 use super::lag_damper::LagDamper;
-use super::swashplate::Rigging;
+use super::sense::Sense;
+use super::swashplate::{BladePitch, PitchHarmonic, Rigging};
 use crate::airfoil::Airfoil;
 use crate::blade::MAX_MODES;
 use crate::blade::aerodynamics::Air;
@@ -32,6 +33,10 @@ pub struct Rotor {
     pub lag_damper: Option<LagDamper>,
     /// Sticks to pitch.
     pub rigging: Rigging,
+    /// Higher harmonics of the pitch.
+    pub higher: Vec<PitchHarmonic>,
+    /// Sense of rotation: what is said of hub axes is said of its twin's.
+    pub sense: Sense,
     /// Rotor speed [rad/s].
     pub omega: f64,
     /// Hub centre from the body origin [m].
@@ -55,6 +60,8 @@ impl Rotor {
             thin: None,
             lag_damper: data.lag_damper.clone(),
             rigging,
+            higher: Vec::new(),
+            sense: data.rotation,
             omega: data.omega,
             position: data.position,
             shaft_tilt: [data.shaft_tilt_forward, data.shaft_tilt_lateral],
@@ -72,7 +79,17 @@ impl Rotor {
         self.omega * self.blade.radius
     }
 
-    /// Hub motion from body velocity, rates, their derivatives, and gravity [body axes].
+    /// Pitch of a blade at azimuth `psi` [rad] for controls that move at constant rates, with exact rates.
+    #[inline(always)]
+    pub fn blade_pitch(&self, stick: [f64; 4], stick_rate: [f64; 4], psi: f64) -> BladePitch<f64> {
+        let mut pitch = self.rigging.blade_pitch(stick, stick_rate, psi, self.omega);
+        for harmonic in &self.higher {
+            harmonic.add_to(&mut pitch, psi, self.omega);
+        }
+        pitch
+    }
+
+    /// Hub motion, as its sense of rotation has it, from body velocity, rates, their derivatives, and gravity [body axes].
     #[inline(always)]
     pub fn hub_motion<S: Real>(
         &self,
@@ -85,14 +102,14 @@ impl Rotor {
         let r = self.rot_hb::<S>();
         let arm = Vec3::cst(self.position);
         let swing = rates_b.cross(arm);
-        HubMotion {
+        self.sense.hub_motion(HubMotion {
             velocity: r * (velocity_b + swing),
             acceleration_less_gravity: r
                 * (velocity_dot + rates_b.cross(velocity_b) + rates_dot.cross(arm) + rates_b.cross(swing)
                     - gravity_b),
             omega: r * rates_b,
             omega_dot: r * rates_dot,
-        }
+        })
     }
 
     /// Azimuth of blade `b` [rad] when the first is at `psi`.

@@ -44,6 +44,19 @@ pub struct PitchHarmonic {
     pub sine: f64,
 }
 
+impl PitchHarmonic {
+    /// Adds this harmonic at azimuth `psi` [rad] of a rotor turning at `omega` [rad/s].
+    #[inline(always)]
+    pub fn add_to<S: Real>(&self, pitch: &mut BladePitch<S>, psi: f64, omega: f64) {
+        let w = self.order as f64 * omega;
+        let (s, c) = (self.order as f64 * psi).sin_cos();
+        let value = self.cosine * c + self.sine * s;
+        pitch.theta += S::cst(value);
+        pitch.theta_dot += S::cst((self.sine * c - self.cosine * s) * w);
+        pitch.theta_ddot += S::cst(-value * w * w);
+    }
+}
+
 /// Steady periodic blade pitch, theta_0 + theta_1c cos psi + theta_1s sin psi + higher harmonics.
 #[derive(Clone, Copy, Debug)]
 pub struct PitchSeries<'a, S> {
@@ -67,13 +80,8 @@ impl<S: Real> PitchSeries<'_, S> {
             theta_dot: (self.theta_1s * c - self.theta_1c * s) * omega,
             theta_ddot: -(cyclic * (omega * omega)),
         };
-        for h in self.higher {
-            let w = h.order as f64 * omega;
-            let (s, c) = (h.order as f64 * psi).sin_cos();
-            let value = h.cosine * c + h.sine * s;
-            pitch.theta += S::cst(value);
-            pitch.theta_dot += S::cst((h.sine * c - h.cosine * s) * w);
-            pitch.theta_ddot += S::cst(-value * w * w);
+        for harmonic in self.higher {
+            harmonic.add_to(&mut pitch, psi, omega);
         }
         pitch
     }

@@ -8,8 +8,6 @@ pub mod data_files;
 
 use beam_support::uh60a;
 use data_files::{Csv, INCH};
-use wakeflight::aircraft::data::{AircraftData, RotorData};
-use wakeflight::aircraft::model::{Aircraft, HeldInflow, Inputs};
 use wakeflight::airfoil::{Airfoil, AirfoilTables};
 use wakeflight::airframe::mass::MassProperties;
 use wakeflight::blade::MAX_MODES;
@@ -23,7 +21,12 @@ use wakeflight::numerics::frames::Vec3;
 use wakeflight::numerics::scalar::{Dual, Real};
 use wakeflight::numerics::tables::Grid;
 use wakeflight::rotor::lag_damper::LagDamper;
+use wakeflight::rotor::sense::Sense;
 use wakeflight::rotor::swashplate::Rigging;
+use wakeflight::system::carrier::Stand;
+use wakeflight::system::data::{AircraftData, RiggedRotor, RotorData};
+use wakeflight::system::instant::{HeldInflow, Inputs, Instant};
+use wakeflight::system::model::{Setting, System};
 
 pub const OMEGA: f64 = 27.0;
 pub const AIR: Air = Air { density: 1.046, speed_of_sound: 334.0 };
@@ -187,6 +190,7 @@ pub fn aircraft_data(blade: BladeProperties, airfoil: Airfoil) -> AircraftData {
             blade,
             airfoil,
             lag_damper: Some(lag_damper()),
+            rotation: Sense::CounterClockwise,
         },
         rigging: rigging(),
         mass: MassProperties { gross_mass: 7257.4779, inertia: [6316.7558, 52215.261, 49888.677, 2551.6494] },
@@ -197,15 +201,42 @@ pub fn aircraft_data(blade: BladeProperties, airfoil: Airfoil) -> AircraftData {
         tail_rotor: Some(data_files::tail_rotor()),
         interference: Some(data_files::interference()),
         accessory_power: 0.0,
+        further_rotors: Vec::new(),
+        mirrored: false,
     }
 }
 
-pub fn build(data: &AircraftData, free_wake: bool, gravity: f64) -> Aircraft {
-    Aircraft::new(data, AIR, &discretisation(5, 8), free_wake, gravity).unwrap()
+pub fn setting(free_wake: bool, gravity: f64) -> Setting {
+    Setting { air: AIR, gravity, free_wake, discretisation: discretisation(5, 8) }
+}
+
+pub fn build(data: &AircraftData, free_wake: bool, gravity: f64) -> System {
+    System::aircraft(data, &setting(free_wake, gravity)).unwrap()
+}
+
+/// The aircraft with a second rotor behind the first: other coupling of pitch and flap, clockwise, tilted, no tail rotor.
+pub fn tandem(data: &AircraftData) -> AircraftData {
+    let mut data = data.clone();
+    data.tail_rotor = None;
+    let mut rotor = data.rotor.clone();
+    rotor.position = data_files::position(700.0, 12.0, 330.0);
+    rotor.rotation = Sense::Clockwise;
+    rotor.n_blades = 3;
+    rotor.shaft_tilt_lateral = -0.02;
+    rotor.blade.delta3 = 0.1;
+    data.further_rotors = vec![RiggedRotor { rotor, rigging: data.rigging.clone() }];
+    data
+}
+
+/// The rotor of the aircraft on a stand in forward flight that turns.
+pub fn on_stand(data: &AircraftData, free_wake: bool) -> System {
+    let setting = setting(free_wake, 9.80665);
+    let rotor = setting.rotor(&data.rotor, &data.rigging).unwrap();
+    System::on_stand(Stand { velocity: [-38.0, 3.0, 2.0], rates: [0.1, -0.2, 0.05] }, vec![rotor], &setting)
 }
 
 /// Airframe and blades alone: no air, no lag damper, no structural damping, collective only.
-pub fn conservative_aircraft(blade: BladeProperties, gravity: f64) -> Aircraft {
+pub fn conservative_aircraft(blade: BladeProperties, gravity: f64) -> System {
     let mut data = aircraft_data(blade, smooth_airfoil(6.0, 0.0, 0.01, 0.0));
     data.rotor.lag_damper = None;
     data.rotor.shaft_tilt_lateral = 0.03;
@@ -216,45 +247,38 @@ pub fn conservative_aircraft(blade: BladeProperties, gravity: f64) -> Aircraft {
 }
 
 pub fn inputs(stick: [f64; 4], inflow: HeldInflow) -> Inputs {
-    Inputs { stick, stick_rate: [0.0; 4], t_start: 0.0, inflow, stabilator_incidence: 0.1 }
+    Inputs { stick, stick_rate: [0.0; 4], t_start: 0.0, inflow: vec![inflow], stabilator_incidence: 0.1 }
+}
+
+pub fn at<'a, S>(t: f64, y: &'a [S], y_dot: &'a [S], inputs: &'a Inputs) -> Instant<'a, S> {
+    Instant { t, y, y_dot, inputs }
 }
 
 /// A state of flight: moderate speeds and rates, blades deflected and moving.
-pub fn random_state(aircraft: &Aircraft, random: &mut Random) -> (Vec<f64>, Vec<f64>) {
-    let l = aircraft.layout;
-    let (mut y, mut y_dot) = (vec![0.0; l.len()], vec![0.0; l.len()]);
-    let speeds = [41.0, 2.0, -3.0];
-    for i in 0..3 {
-        y[i] = speeds[i] + random.next();
-        y[3 + i] = 0.3 * random.next();
-        y_dot[i] = 2.0 * random.next();
-        y_dot[3 + i] = random.next();
+pub fn random_state(system: &System, random: &mut Random) -> (Vec<f64>, Vec<f64>) {
+    let layout = &system.layout;
+    let (mut y, mut y_dot) = (vec![0.0; layout.len()], vec![0.0; layout.len()]);
+    if layout.free {
+        random_flight(&mut y, &mut y_dot, random);
     }
-    let attitude = wakeflight::numerics::frames::quaternion(0.2, -0.1, 0.7);
-    for i in 0..4 {
-        y[6 + i] = attitude[i];
-        y_dot[6 + i] = 0.1 * random.next();
-    }
-    for i in 10..13 {
-        y[i] = 100.0 * random.next();
-        y_dot[i] = 40.0 * random.next();
-    }
-    for b in 0..l.n_blades {
-        let blade = &aircraft.rotor.blade;
-        let (q, rate) = (random_modal(blade, 0.06, random), random_modal(blade, 0.06, random));
-        let ddot = random_modal(blade, 0.06, random);
-        for i in 0..l.n_modes {
-            y[l.modal(b).start + i] = q[i];
-            y[l.modal_rate(b).start + i] = OMEGA * rate[i];
-            y_dot[l.modal(b).start + i] = OMEGA * rate[i] * 1.1;
-            y_dot[l.modal_rate(b).start + i] = OMEGA * OMEGA * ddot[i];
+    for (rotor, l) in system.rotors.iter().zip(&layout.rotors) {
+        for b in 0..l.n_blades {
+            let blade = &rotor.blade;
+            let (q, rate) = (random_modal(blade, 0.06, random), random_modal(blade, 0.06, random));
+            let ddot = random_modal(blade, 0.06, random);
+            for i in 0..l.n_modes {
+                y[l.modal(b).start + i] = q[i];
+                y[l.modal_rate(b).start + i] = OMEGA * rate[i];
+                y_dot[l.modal(b).start + i] = OMEGA * rate[i] * 1.1;
+                y_dot[l.modal_rate(b).start + i] = OMEGA * OMEGA * ddot[i];
+            }
+        }
+        for i in l.inflow() {
+            y[i] = 0.02 + 0.01 * random.next();
+            y_dot[i] = 0.1 * random.next();
         }
     }
-    for i in l.inflow() {
-        y[i] = 0.02 + 0.01 * random.next();
-        y_dot[i] = 0.1 * random.next();
-    }
-    for i in l.tail_inflow() {
+    for i in layout.closed_inflow() {
         y[i] = 0.05;
         y_dot[i] = 0.2;
     }
@@ -373,5 +397,24 @@ pub fn section_momentum(p: &StructuralPoint, centre: [f64; 3], place: [[Dual<1>;
             + s * dot(r_dot, c_dot),
         momentum: add(scaled(r_dot, m), scaled(c_dot, s)),
         moment: moments.into_iter().fold([0.0; 3], add),
+    }
+}
+
+fn random_flight(y: &mut [f64], y_dot: &mut [f64], random: &mut Random) {
+    let speeds = [41.0, 2.0, -3.0];
+    for i in 0..3 {
+        y[i] = speeds[i] + random.next();
+        y[3 + i] = 0.3 * random.next();
+        y_dot[i] = 2.0 * random.next();
+        y_dot[3 + i] = random.next();
+    }
+    let attitude = wakeflight::numerics::frames::quaternion(0.2, -0.1, 0.7);
+    for i in 0..4 {
+        y[6 + i] = attitude[i];
+        y_dot[6 + i] = 0.1 * random.next();
+    }
+    for i in 10..13 {
+        y[i] = 100.0 * random.next();
+        y_dot[i] = 40.0 * random.next();
     }
 }

@@ -33,4 +33,28 @@ pub struct AircraftData {
     pub interference: Option<Interference>,
     /// Power of accessories [W].
     pub accessory_power: f64,
+    /// Rotors with blades beyond the first.
+    #[serde(default)]
+    pub further_rotors: Vec<RiggedRotor>,
+    /// Whether the air loads of airframe and closed-form rotors are those of the mirror image of their data.
+    #[serde(default)]
+    pub mirrored: bool,
+}
+
+/// A rotor with blades and what the sticks do to it.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RiggedRotor {
+    /// Rotor.
+    pub rotor: RotorData,
+    /// Sticks to blade pitch.
+    pub rigging: Rigging,
+}
+
+impl AircraftData {
+    /// Rotors with blades, in the order of the list, each with its rigging.
+    pub fn rotors(&self) -> impl Iterator<Item = (&RotorData, &Rigging)> {
+        let further = self.further_rotors.iter().map(|r| (&r.rotor, &r.rigging));
+        std::iter::once((&self.rotor, &self.rigging)).chain(further)
+    }
 }

@@ -4,9 +4,13 @@
 //! mean and the first harmonics of its periodic motion. Equations: three force and three moment balances, the lateral
 //! convention, the inflow equations with the loads averaged, and every harmonic of the blade equations.
 
-use super::model::{Aircraft, HeldInflow, Inputs};
-use super::residual::RotorLoads;
-use super::state::Layout;
+use super::carrier::gravity_b;
+use super::instant::{HeldInflow, Inputs};
+use super::layout::Layout;
+use super::model::System;
+use super::residual::Settings;
+use super::rotor_loads::{RotorLoads, RotorShare};
+use crate::airframe::assembly::Airframe;
 use crate::blade::kinematics::{ModalMotion, PitchMotion};
 use crate::blade::loads::{BladeInflow, BladeLoads, HubMotion};
 use crate::numerics::frames::{Body, Vec3, quaternion, rot_ib};
@@ -147,20 +151,20 @@ impl TrimLayout {
     }
 }
 
-impl Aircraft {
+impl System {
     /// Layout of the trim unknowns.
     pub fn trim_layout(&self, problem: &TrimProblem) -> TrimLayout {
         TrimLayout {
-            n_modes: self.layout.n_modes,
+            n_modes: self.layout.main().n_modes,
             n_harmonics: problem.n_harmonics,
             dynamic_inflow: matches!(problem.inflow, TrimInflow::Dynamic),
-            tail_rotor: self.layout.tail_rotor,
+            tail_rotor: !self.layout.closed.is_empty(),
         }
     }
 
     /// Modal coordinate, rate and acceleration at azimuth `psi` from the harmonics in `x`.
     pub fn periodic_motion<S: Real>(&self, layout: &TrimLayout, x: &[S], psi: f64) -> ModalMotion<S> {
-        layout.harmonics().motion(x, psi, self.rotor.omega)
+        layout.harmonics().motion(x, psi, self.main().omega)
     }
 
     /// Body velocity and rates for attitude unknowns in `x`, as the first six states with the attitude behind them.
@@ -183,7 +187,7 @@ impl Aircraft {
 
     /// Stabilator incidence in trim: on its schedule where it has one [rad].
     pub fn trim_stabilator<S: Real>(&self, problem: &TrimProblem, collective: S, pitch_rate: S) -> S {
-        self.airframe.trim_incidence(problem.speed, self.air.density, collective, pitch_rate)
+        self.airframe().trim_incidence(problem.speed, self.air.density, collective, pitch_rate)
     }
 
     /// Body state with the inflow states of the unknowns in it, and the motion of the hub.
@@ -195,14 +199,14 @@ impl Aircraft {
     ) -> (Vec<S>, HubMotion<S>) {
         let mut y = self.trim_body_state(problem, x);
         let y_dot = vec![S::zero(); y.len()];
-        if layout.dynamic_inflow && self.layout.dynamic_inflow {
-            let i = self.layout.inflow().start;
+        if layout.dynamic_inflow && self.layout.main().dynamic_inflow {
+            let i = self.layout.main().inflow().start;
             y[i..i + 3].copy_from_slice(&x[layout.inflow()..layout.inflow() + 3]);
         }
         if layout.tail_rotor {
-            y[self.layout.tail_inflow().start] = x[layout.tail_inflow()];
+            y[self.layout.closed_inflow().start] = x[layout.tail_inflow()];
         }
-        let hub = self.hub_motion(&y, &y_dot);
+        let hub = self.hub_motion(0, &y, &y_dot);
         (y, hub)
     }
 
@@ -211,11 +215,11 @@ impl Aircraft {
     pub fn trim_residual<S: Real>(&self, problem: &TrimProblem, x: &[S], f: &mut [S]) {
         let layout = self.trim_layout(problem);
         let (y, hub) = self.trim_hub_state(problem, &layout, x);
-        let pitch = self.rotor.rigging.pitch([x[0], x[1], x[2], x[3]]);
+        let pitch = self.main().rigging.pitch([x[0], x[1], x[2], x[3]]);
         let given =
             |l: usize, psi: f64| (self.cyclic_pitch(&pitch, psi), self.trim_blade_inflow(problem, &y, l));
         let mean =
-            self.rotor.revolution(self.air, &hub, &layout.harmonics(), x, problem.n_azimuths, given, f);
+            self.main().revolution(self.air, &hub, &layout.harmonics(), x, problem.n_azimuths, given, f);
         self.trim_balances(problem, &layout, x, &y, &mean, f);
     }
 
@@ -223,11 +227,12 @@ impl Aircraft {
     pub fn trim_residual_of_four(&self, problem: &TrimProblem, x: &[f64], f: &mut [f64]) {
         let layout = self.trim_layout(problem);
         let (y, hub) = self.trim_hub_state(problem, &layout, x);
-        let pitch = self.rotor.rigging.pitch([x[0], x[1], x[2], x[3]]);
+        let pitch = self.main().rigging.pitch([x[0], x[1], x[2], x[3]]);
         let given =
             |l: usize, psi: f64| (self.cyclic_pitch(&pitch, psi), self.trim_blade_inflow(problem, &y, l));
         let harmonics = layout.harmonics();
-        let mean = self.rotor.revolution_of_four(self.air, &hub, &harmonics, x, problem.n_azimuths, given, f);
+        let mean =
+            self.main().revolution_of_four(self.air, &hub, &harmonics, x, problem.n_azimuths, given, f);
         self.trim_balances(problem, &layout, x, &y, &mean, f);
     }
 
@@ -241,74 +246,64 @@ impl Aircraft {
         mean: &BladeLoads<S>,
         f: &mut [S],
     ) {
-        let rotor = RotorLoads::sum(std::slice::from_ref(mean));
+        let mut rotor = RotorLoads::zero();
+        rotor.add(mean);
         // the first harmonic of the flap mode is what the blades share as beta_1c
-        let flap = layout.mode(self.rotor.blade.flap_mode);
+        let flap = layout.mode(self.main().blade.flap_mode);
         let beta_1c =
-            if layout.n_harmonics > 0 { x[flap + 1] * self.rotor.flap_per_coordinate() } else { S::zero() };
+            if layout.n_harmonics > 0 { x[flap + 1] * self.main().flap_per_coordinate() } else { S::zero() };
         let mean_inflow = match &problem.inflow {
             TrimInflow::Dynamic => x[layout.inflow()],
             TrimInflow::Map { mean, .. } => S::cst(*mean),
         };
         let tail_inflow = if layout.tail_rotor { x[layout.tail_inflow()] } else { S::zero() };
         let stick = [x[0], x[1], x[2], x[3]];
-        let loads = self.trim_airframe_loads(problem, y, &rotor, mean_inflow, beta_1c, stick, tail_inflow);
-        let velocity = super::state::body_vector(y, Layout::VELOCITY);
-        let rates = super::state::body_vector(y, Layout::RATES);
-        let (inertia_force, inertia_moment) = self.airframe.mass.inertial_residual(
+        let settings = Settings {
+            mean_inflow,
+            stabilator_incidence: self.trim_stabilator(problem, stick[2], y[4]),
+            closed_pitch: self.main().rigging.pitch(stick)[3],
+            closed_inflow: &[tail_inflow][..self.closed.len()],
+        };
+        let share = RotorShare { loads: rotor, beta_1c };
+        let loads = self.loads_on_airframe(self.airframe(), y, &[share], &settings);
+        let velocity = super::layout::body_vector(y, Layout::VELOCITY);
+        let rates = super::layout::body_vector(y, Layout::RATES);
+        let (inertia_force, inertia_moment) = self.airframe().mass.inertial_residual(
             velocity,
             rates,
             Vec3::zero(),
             Vec3::zero(),
-            self.gravity_b(y),
+            gravity_b(y, self.gravity),
         );
         let force = (loads.force + inertia_force).array();
         let moment = (loads.moment + inertia_moment).array();
         for i in 0..3 {
-            f[i] = force[i] / self.airframe.gross_mass;
-            f[3 + i] = moment[i] / self.airframe.reference_inertia[i];
+            f[i] = force[i] / self.airframe().gross_mass;
+            f[3 + i] = moment[i] / self.airframe().reference_inertia[i];
         }
         let (roll, yaw) = (x[TrimLayout::ATTITUDE], x[TrimLayout::ATTITUDE + 2]);
         f[6] = convention_residual(problem, velocity, roll, yaw);
         if layout.dynamic_inflow {
             let i = layout.inflow();
-            let rate = self.inflow_rate(velocity, rates, &rotor, [x[i], x[i + 1], x[i + 2]]);
+            let hub = self.hub_motion(0, y, &vec![S::zero(); y.len()]).velocity;
+            let rate = self.inflow_rate(0, hub, &rotor, [x[i], x[i + 1], x[i + 2]]);
             for k in 0..3 {
-                f[i + k] = rate[k] / self.rotor.omega;
+                f[i + k] = rate[k] / self.main().omega;
             }
         }
         if layout.tail_rotor {
-            f[layout.tail_inflow()] = loads.tail_inflow_rate / self.rotor.omega;
+            f[layout.tail_inflow()] = loads.closed_inflow_rate[0] / self.main().omega;
         }
     }
 
-    #[allow(clippy::too_many_arguments, reason = "everything the airframe feels")]
-    fn trim_airframe_loads<S: Real>(
-        &self,
-        problem: &TrimProblem,
-        y: &[S],
-        rotor: &RotorLoads<S>,
-        mean_inflow: S,
-        beta_1c: S,
-        stick: [S; 4],
-        tail_inflow: S,
-    ) -> super::residual::AirframeLoads<S> {
-        let incidence = self.trim_stabilator(problem, stick[2], y[4]);
-        self.loads_on_airframe(
-            y,
-            rotor,
-            mean_inflow,
-            beta_1c,
-            incidence,
-            self.rotor.rigging.pitch(stick)[3],
-            tail_inflow,
-        )
+    fn airframe(&self) -> &Airframe {
+        self.carrier.airframe().expect("trim in flight is of an airframe")
     }
 
     /// Blade pitch with exact rates for steady pitch controls (theta_1c, theta_1s, theta_0, theta_tr).
     pub(super) fn cyclic_pitch<S: Real>(&self, pitch: &[S; 4], psi: f64) -> PitchMotion<S> {
         let series = PitchSeries { theta_0: pitch[2], theta_1c: pitch[0], theta_1s: pitch[1], higher: &[] };
-        series.at(psi + self.rotor.rigging.phase, self.rotor.omega).into()
+        series.at(psi + self.main().rigging.phase, self.main().omega).into()
     }
 
     fn trim_blade_inflow<'a, S: Real>(
@@ -319,11 +314,11 @@ impl Aircraft {
     ) -> BladeInflow<'a, S> {
         match &problem.inflow {
             TrimInflow::Dynamic => {
-                let i = self.layout.inflow().start;
+                let i = self.layout.main().inflow().start;
                 BladeInflow::Disk([y[i], y[i + 1], y[i + 2]])
             }
             TrimInflow::Map { inflow, .. } => {
-                let n = self.rotor.blade.stations.len();
+                let n = self.main().blade.stations.len();
                 BladeInflow::Stations(&inflow[l * n..(l + 1) * n])
             }
         }
@@ -334,19 +329,19 @@ impl Aircraft {
         let layout = self.trim_layout(problem);
         let mut y = self.trim_body_state(problem, x);
         let mut y_dot = vec![0.0; y.len()];
-        for b in 0..self.rotor.n_blades {
-            let m = self.periodic_motion(&layout, x, self.rotor.azimuth(self.rotor.omega * t, b));
-            for (k, (q, s)) in self.layout.modal(b).zip(self.layout.modal_rate(b)).enumerate() {
+        for b in 0..self.main().n_blades {
+            let m = self.periodic_motion(&layout, x, self.azimuth(0, t, b));
+            for (k, (q, s)) in self.layout.main().modal(b).zip(self.layout.main().modal_rate(b)).enumerate() {
                 (y[q], y[s]) = (m.q[k], m.q_dot[k]);
                 (y_dot[q], y_dot[s]) = (m.q_dot[k], m.q_ddot[k]);
             }
         }
-        if layout.dynamic_inflow && self.layout.dynamic_inflow {
-            let i = self.layout.inflow().start;
+        if layout.dynamic_inflow && self.layout.main().dynamic_inflow {
+            let i = self.layout.main().inflow().start;
             y[i..i + 3].copy_from_slice(&x[layout.inflow()..layout.inflow() + 3]);
         }
         if layout.tail_rotor {
-            y[self.layout.tail_inflow().start] = x[layout.tail_inflow()];
+            y[self.layout.closed_inflow().start] = x[layout.tail_inflow()];
         }
         (y, y_dot)
     }
@@ -358,7 +353,7 @@ impl Aircraft {
             stick: [x[0], x[1], x[2], x[3]],
             stick_rate: [0.0; 4],
             t_start: 0.0,
-            inflow,
+            inflow: vec![inflow],
             stabilator_incidence: self.trim_stabilator(problem, x[2], y[4]),
         }
     }

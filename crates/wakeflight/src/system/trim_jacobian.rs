@@ -4,7 +4,7 @@
 //! and three inflow states; the airframe sees the blades through their mean loads and the flapping. Both halves are
 //! differentiated by themselves and joined by the chain rule.
 
-use super::model::Aircraft;
+use super::model::System;
 use super::trim::{TrimInflow, TrimProblem};
 use crate::blade::loads::BladeLoads;
 use crate::numerics::frames::Vec3;
@@ -15,7 +15,7 @@ use crate::rotor::periodic_slopes::{AzimuthInflow, N_GIVEN, N_LOADS};
 const LANES: usize = 16;
 type D = Dual<LANES>;
 
-impl Aircraft {
+impl System {
     /// Exact Jacobian of the trim equations, row-major (n, n).
     pub fn trim_jacobian(&self, problem: &TrimProblem, x: &[f64], out: &mut [f64]) {
         let layout = self.trim_layout(problem);
@@ -29,7 +29,7 @@ impl Aircraft {
             value.eps[lane] = 1.0;
         }
         let (y, hub_s) = self.trim_hub_state(problem, &layout, &x_s);
-        let pitch_s = self.rotor.rigging.pitch([x_s[0], x_s[1], x_s[2], x_s[3]]);
+        let pitch_s = self.main().rigging.pitch([x_s[0], x_s[1], x_s[2], x_s[3]]);
         let mut given = [D::zero(); N_GIVEN];
         given[..3].copy_from_slice(&hub_s.velocity.array());
         given[3..6].copy_from_slice(&hub_s.acceleration_less_gravity.array());
@@ -37,16 +37,16 @@ impl Aircraft {
         given[9..12].copy_from_slice(&pitch_s[..3]);
         let dynamic = matches!(problem.inflow, TrimInflow::Dynamic);
         if dynamic {
-            given[12..].copy_from_slice(&y[self.layout.inflow()]);
+            given[12..].copy_from_slice(&y[self.layout.main().inflow()]);
         }
 
         let plain = |v: &[D]| -> Vec<f64> { v.iter().map(|d| d.re).collect() };
         let (_, hub) = self.trim_hub_state(problem, &layout, x);
         let pitch = pitch_s.map(|d| d.re);
         let disk = plain(&given[12..]);
-        let n_stations = self.rotor.blade.stations.len();
+        let n_stations = self.main().blade.stations.len();
         let slopes =
-            self.rotor.revolution_slopes(self.air, &hub, &harmonics, x, problem.n_azimuths, |l, psi| {
+            self.main().revolution_slopes(self.air, &hub, &harmonics, x, problem.n_azimuths, |l, psi| {
                 let inflow = match &problem.inflow {
                     TrimInflow::Dynamic => AzimuthInflow::Disk([disk[0], disk[1], disk[2]]),
                     TrimInflow::Map { inflow, .. } => {
@@ -57,7 +57,7 @@ impl Aircraft {
             });
 
         // equations of the airframe by the unknowns at the head, the mean loads, and the flapping
-        let flap = layout.mode(self.rotor.blade.flap_mode) + 1;
+        let flap = layout.mode(self.main().blade.flap_mode) + 1;
         let n_flap = usize::from(layout.harmonics().n_harmonics > 0);
         let n_directions = head + N_LOADS + n_flap;
         let mut by_loads = vec![0.0; head * N_LOADS];

@@ -1,0 +1,63 @@
+//! What carries the rotors: an airframe in free flight, or a stand that stays.
+
+use super::layout::{Layout, body_vector};
+use crate::airframe::assembly::Airframe;
+use crate::blade::loads::HubMotion;
+use crate::numerics::frames::{Body, Inertial, Vec3, rot_ib};
+use crate::numerics::scalar::Real;
+use crate::rotor::hub::Rotor;
+
+/// A carrier of rotors.
+#[derive(Clone, Debug)]
+pub enum Carrier {
+    /// An airframe in free flight: thirteen states.
+    Airframe(Box<Airframe>),
+    /// A stand: its motion is given, it has no states.
+    Stand(Stand),
+}
+
+/// Steady motion of a stand through the air; gravity acts down the shaft.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stand {
+    /// Velocity of the hub through the air, hub axes (x aft, y right, z up) [m/s].
+    pub velocity: [f64; 3],
+    /// Angular velocity, hub axes [rad/s].
+    pub rates: [f64; 3],
+}
+
+impl Carrier {
+    /// The airframe, where there is one.
+    pub fn airframe(&self) -> Option<&Airframe> {
+        match self {
+            Self::Airframe(airframe) => Some(airframe),
+            Self::Stand(_) => None,
+        }
+    }
+
+    /// Motion of the hub of `rotor` in the states y, with gravity [m/s2] as an acceleration.
+    #[inline(always)]
+    pub fn hub_motion<S: Real>(&self, rotor: &Rotor, y: &[S], y_dot: &[S], gravity: f64) -> HubMotion<S> {
+        match self {
+            Self::Airframe(_) => rotor.hub_motion(
+                body_vector(y, Layout::VELOCITY),
+                body_vector(y, Layout::RATES),
+                body_vector(y_dot, Layout::VELOCITY),
+                body_vector(y_dot, Layout::RATES),
+                gravity_b(y, gravity),
+            ),
+            Self::Stand(stand) => rotor.sense.hub_motion(HubMotion {
+                velocity: Vec3::cst(stand.velocity),
+                acceleration_less_gravity: Vec3::cst([0.0, 0.0, gravity]),
+                omega: Vec3::cst(stand.rates),
+                omega_dot: Vec3::zero(),
+            }),
+        }
+    }
+}
+
+/// Gravity [m/s2] in body axes of an airframe with the states y.
+#[inline(always)]
+pub fn gravity_b<S: Real>(y: &[S], gravity: f64) -> Vec3<S, Body> {
+    let q = [y[6], y[7], y[8], y[9]];
+    rot_ib(q).transposed() * Vec3::<S, Inertial>::cst([0.0, 0.0, gravity])
+}

@@ -1,0 +1,218 @@
+//! The blades' part of F: motion of a hub, pitch and inflow of every blade, loads of a rotor on its hub.
+
+use super::instant::{HeldInflow, Instant};
+use super::layout::{RotorLayout, modal_array};
+use super::model::System;
+use crate::blade::kinematics::{ModalMotion, PitchMotion};
+use crate::blade::loads::{BladeInflow, BladeLoads, HubMotion};
+use crate::inflow::pitt_peters::DiskCondition;
+use crate::numerics::frames::{Body, Hub, Vec3};
+use crate::numerics::scalar::Real;
+use crate::rotor::hub::Rotor;
+
+/// Loads of a rotor on its hub, about the hub centre, in the axes its sense of rotation has ([`Sense`](crate::rotor::sense::Sense));
+/// `aero_*` the share of the air.
+#[derive(Clone, Copy, Debug)]
+pub struct RotorLoads<S> {
+    /// Force [N].
+    pub force: Vec3<S, Hub>,
+    /// Moment [N m].
+    pub moment: Vec3<S, Hub>,
+    /// Share of the air in the force.
+    pub aero_force: Vec3<S, Hub>,
+    /// Share of the air in the moment.
+    pub aero_moment: Vec3<S, Hub>,
+}
+
+impl<S: Real> RotorLoads<S> {
+    /// No loads.
+    pub fn zero() -> Self {
+        let none = Vec3::zero();
+        Self { force: none, moment: none, aero_force: none, aero_moment: none }
+    }
+
+    /// Force [N] and moment about the body origin [N m] of these loads on the hub of `rotor`.
+    #[inline(always)]
+    pub fn on_body(&self, rotor: &Rotor) -> (Vec3<S, Body>, Vec3<S, Body>) {
+        let to_body = rotor.rot_hb::<S>().transposed();
+        let force = to_body * rotor.sense.polar(self.force);
+        (force, to_body * rotor.sense.axial(self.moment) + Vec3::cst(rotor.position).cross(force))
+    }
+
+    /// One blade more.
+    pub fn add(&mut self, b: &BladeLoads<S>) {
+        self.force += b.force;
+        self.moment += b.moment;
+        self.aero_force += b.aero_force;
+        self.aero_moment += b.aero_moment;
+    }
+}
+
+/// What a rotor brings to the carrier: its loads, and the flapping that turns its wash.
+#[derive(Clone, Copy, Debug)]
+pub struct RotorShare<S> {
+    /// Loads on the hub.
+    pub loads: RotorLoads<S>,
+    /// Cosine of the first flap mode over the blades [rad].
+    pub beta_1c: S,
+}
+
+impl System {
+    /// Azimuth [rad] of blade `b` of rotor `r` at time `t`: read here and nowhere else.
+    #[inline(always)]
+    pub fn azimuth(&self, r: usize, t: f64, b: usize) -> f64 {
+        let rotor = &self.rotors[r];
+        rotor.azimuth(rotor.omega * t, b)
+    }
+
+    /// Motion of the hub of rotor `r`, as its sense of rotation has it.
+    #[inline(always)]
+    pub fn hub_motion<S: Real>(&self, r: usize, y: &[S], y_dot: &[S]) -> HubMotion<S> {
+        self.carrier.hub_motion(&self.rotors[r], y, y_dot, self.gravity)
+    }
+
+    /// Blade pitch of rotor `r` at azimuth `psi` and the time of `at`, with exact rates.
+    #[inline(always)]
+    pub fn blade_pitch<S: Real, T>(&self, r: usize, at: &Instant<T>, psi: f64) -> PitchMotion<S> {
+        let rotor = &self.rotors[r];
+        let p = rotor.blade_pitch(at.inputs.stick_at(at.t), at.inputs.stick_rate, psi);
+        PitchMotion {
+            theta: S::cst(p.theta),
+            theta_dot: S::cst(p.theta_dot),
+            theta_ddot: S::cst(p.theta_ddot),
+        }
+    }
+
+    /// Modal motion of blade `b` of rotor `r`.
+    #[inline(always)]
+    pub fn modal_motion<S: Real>(&self, r: usize, y: &[S], y_dot: &[S], b: usize) -> ModalMotion<S> {
+        let l = &self.layout.rotors[r];
+        ModalMotion {
+            q: modal_array(y, l.modal(b)),
+            q_dot: modal_array(y, l.modal_rate(b)),
+            q_ddot: modal_array(y_dot, l.modal_rate(b)),
+        }
+    }
+
+    /// Inflow that blade `b` of rotor `r` feels.
+    #[inline(always)]
+    pub fn blade_inflow<'a, S: Real, T>(
+        &self,
+        r: usize,
+        y: &[S],
+        at: &Instant<'a, T>,
+        b: usize,
+    ) -> BladeInflow<'a, S> {
+        match &at.inputs.inflow[r] {
+            HeldInflow::Dynamic => {
+                let i = self.layout.rotors[r].inflow().start;
+                BladeInflow::Disk([y[i], y[i + 1], y[i + 2]])
+            }
+            HeldInflow::Stations { inflow, .. } => {
+                let width = inflow.len() / self.rotors[r].n_blades;
+                self.rotors[r].held_inflow(&inflow[b * width..(b + 1) * width])
+            }
+            HeldInflow::Vacuum => BladeInflow::Vacuum,
+        }
+    }
+
+    /// Loads of blade `b` of rotor `r`.
+    #[inline(always)]
+    pub fn blade_loads<S: Real>(
+        &self,
+        r: usize,
+        at: &Instant<S>,
+        hub: &HubMotion<S>,
+        b: usize,
+    ) -> BladeLoads<S> {
+        let psi = self.azimuth(r, at.t, b);
+        let control = self.blade_pitch(r, at, psi);
+        let modal = self.modal_motion(r, at.y, at.y_dot, b);
+        self.rotors[r].blade_loads(self.air, hub, psi, &modal, &control, &self.blade_inflow(r, at.y, at, b))
+    }
+
+    /// Loads of all blades of rotor `r`, four at once; `each` sees every blade's.
+    pub fn rotor_loads(
+        &self,
+        r: usize,
+        at: &Instant<f64>,
+        hub: &HubMotion<f64>,
+        mut each: impl FnMut(usize, &BladeLoads<f64>),
+    ) -> RotorLoads<f64> {
+        let mut total = RotorLoads::zero();
+        let n = self.rotors[r].n_blades;
+        for first in (0..n).step_by(4) {
+            // fewer than four left: the last stands in for those that are not there
+            let blade = |k: usize| (first + k).min(n - 1);
+            let poses = std::array::from_fn(|k| {
+                let psi = self.azimuth(r, at.t, blade(k));
+                (
+                    psi,
+                    self.modal_motion(r, at.y, at.y_dot, blade(k)),
+                    self.blade_pitch::<f64, f64>(r, at, psi),
+                )
+            });
+            let inflow = std::array::from_fn(|k| self.blade_inflow(r, at.y, at, blade(k)));
+            let loads = self.rotors[r].four_blade_loads(self.air, hub, &poses, &inflow);
+            for (b, blade) in (first..n).zip(&loads) {
+                each(b, blade);
+                total.add(blade);
+            }
+        }
+        total
+    }
+
+    /// Cosine and sine of the first flap mode over the blades of rotor `r`, as angles [rad].
+    pub fn flap_multiblade<S: Real>(&self, r: usize, t: f64, y: &[S]) -> [S; 2] {
+        let (rotor, l) = (&self.rotors[r], &self.layout.rotors[r]);
+        let n = rotor.n_blades;
+        let (mut cosine, mut sine) = (S::zero(), S::zero());
+        for b in 0..n {
+            let flap = y[l.modal(b).start + rotor.blade.flap_mode] * rotor.flap_per_coordinate();
+            let (s, c) = self.azimuth(r, t, b).sin_cos();
+            cosine += flap * (2.0 * c / n as f64);
+            sine += flap * (2.0 * s / n as f64);
+        }
+        [cosine, sine]
+    }
+
+    /// Mean inflow of rotor `r` that the airframe feels: the state, or the disk mean of the wake.
+    pub(super) fn mean_inflow<S: Real, T>(&self, r: usize, y: &[S], at: &Instant<T>) -> S {
+        match &at.inputs.inflow[r] {
+            HeldInflow::Dynamic => y[self.layout.rotors[r].inflow().start],
+            HeldInflow::Stations { mean, .. } => S::cst(*mean),
+            HeldInflow::Vacuum => S::zero(),
+        }
+    }
+
+    /// Rate of the dynamic inflow states lambda_0, lambda_s, lambda_c [1/s] of rotor `r` with its hub at `velocity`.
+    pub(super) fn inflow_rate<S: Real>(
+        &self,
+        r: usize,
+        velocity: Vec3<S, Hub>,
+        loads: &RotorLoads<S>,
+        inflow: [S; 3],
+    ) -> [S; 3] {
+        let rotor = &self.rotors[r];
+        let mu = velocity.scaled(1.0 / rotor.tip_speed());
+        let [ct, cl, cm] = rotor.aero_coefficients(self.air, loads.aero_force, loads.aero_moment);
+        // the model counts forward and downward speed positive; hub axes point aft and up
+        let disk = DiskCondition { ct, cl, cm, mu_x: -mu.x, mu_y: mu.y, mu_z: -mu.z };
+        self.pitt_peters.inflow_dot(inflow, disk, rotor.omega)
+    }
+}
+
+/// Rows of the blades of a rotor in F: kinematics of the modal coordinates, and the modal equations.
+pub(super) fn blade_rows<S: Real>(
+    l: &RotorLayout,
+    b: usize,
+    blade: &BladeLoads<S>,
+    at: &Instant<S>,
+    f: &mut [S],
+) {
+    let (q, s) = (l.modal(b).start, l.modal_rate(b).start);
+    for i in 0..l.n_modes {
+        f[q + i] = at.y_dot[q + i] - at.y[s + i];
+        f[s + i] = blade.modal[i];
+    }
+}

@@ -1,0 +1,154 @@
+//! Loads of one blade differentiated along its own coordinates, the carrier's motion and the inflow of its rotor.
+
+use super::{BladeSlopes, N_LOADS};
+use crate::blade::MAX_MODES;
+use crate::blade::kinematics::ModalMotion;
+use crate::blade::loads::{BladeInflow, BladeLoads};
+use crate::numerics::frames::Vec3;
+use crate::numerics::wide::{DIRECTIONS, Directional, Task, differentiate};
+use crate::rotor::hub::DamperSlopes;
+use crate::system::instant::{HeldInflow, Instant};
+use crate::system::layout::Layout;
+use crate::system::model::System;
+
+/// Own coordinates and rates, carrier velocity and rates, inflow.
+const MOST_DIRECTIONS: usize = 2 * MAX_MODES + 9;
+
+/// Derivatives of a blade's modal rows and loads on the hub, direction by direction.
+struct LoadSlopes {
+    modal: [[f64; DIRECTIONS]; MAX_MODES],
+    loads: [[f64; DIRECTIONS]; N_LOADS],
+}
+
+/// Loads of blade `b` of rotor `r` and their derivatives along some directions.
+struct BladePass<'a> {
+    system: &'a System,
+    at: &'a Instant<'a, f64>,
+    r: usize,
+    b: usize,
+    directions: &'a [usize],
+    table: &'a mut LoadSlopes,
+}
+
+impl Task for BladePass<'_> {
+    type Output = BladeLoads<f64>;
+    #[inline(always)]
+    fn run<S: Directional>(self) -> BladeLoads<f64> {
+        let (system, at, r) = (self.system, self.at, self.r);
+        let (layout, l) = (&system.layout, &system.layout.rotors[r]);
+        let (m, own, states) = (l.n_modes, l.modal(self.b).start, l.inflow());
+        let mut carrier = [S::zero(); Layout::POSITION.end];
+        let mut carrier_dot = [S::zero(); Layout::RATES.end];
+        let mut disk = [S::zero(); 3];
+        let zero = [S::zero(); MAX_MODES];
+        let mut modal = ModalMotion { q: zero, q_dot: zero, q_ddot: zero };
+        for (s, &v) in carrier.iter_mut().zip(&at.y[layout.carrier()]) {
+            *s = S::cst(v);
+        }
+        for (s, &v) in carrier_dot.iter_mut().zip(&at.y_dot[layout.carrier_motion()]) {
+            *s = S::cst(v);
+        }
+        for (s, &v) in disk.iter_mut().zip(&at.y[states.clone()]) {
+            *s = S::cst(v);
+        }
+        for i in 0..m {
+            modal.q[i] = S::cst(at.y[own + i]);
+            modal.q_dot[i] = S::cst(at.y[own + m + i]);
+            modal.q_ddot[i] = S::cst(at.y_dot[own + m + i]);
+        }
+        for (lane, &i) in self.directions.iter().enumerate() {
+            let number = if layout.carrier().contains(&i) {
+                &mut carrier[i]
+            } else if states.contains(&i) {
+                &mut disk[i - states.start]
+            } else if i < own + m {
+                &mut modal.q[i - own]
+            } else {
+                &mut modal.q_dot[i - own - m]
+            };
+            number.set_slope(lane, 1.0);
+        }
+        let hub = system.hub_motion(r, &carrier, &carrier_dot);
+        let psi = system.azimuth(r, at.t, self.b);
+        let control = system.blade_pitch(r, at, psi);
+        let inflow = match at.inputs.inflow[r] {
+            HeldInflow::Dynamic => BladeInflow::Disk(disk),
+            _ => system.blade_inflow::<S, f64>(r, &[], at, self.b),
+        };
+        let loads = system.rotors[r].undamped_loads(system.air, &hub, psi, &modal, &control, &inflow);
+        for i in 0..m {
+            self.table.modal[i] = loads.modal[i].slopes();
+        }
+        let on_hub = [loads.force, loads.moment, loads.aero_force, loads.aero_moment].map(Vec3::array);
+        for (slopes, load) in self.table.loads.iter_mut().zip(on_hub.as_flattened()) {
+            *slopes = load.slopes();
+        }
+        loads.values()
+    }
+}
+
+impl BladeSlopes {
+    /// Own derivatives with those of the lag damper.
+    pub(super) fn add_damper(&mut self, damper: &DamperSlopes) {
+        let columns = self.own.columns;
+        for (i, row) in damper.iter().enumerate().take(columns / 2) {
+            for (j, slope) in row.iter().enumerate().take(columns) {
+                self.own.set(i, j, self.undamped.at(i, j) + slope);
+            }
+        }
+    }
+
+    /// Keeps the derivatives of the modal rows and loads along `directions`; `place` finds shared states.
+    fn keep(&mut self, directions: &[usize], place: &[usize], table: &LoadSlopes) {
+        let (m, own) = (self.n_modes(), self.modal.start);
+        for (lane, &i) in directions.iter().enumerate() {
+            let is_own = (own..own + 2 * m).contains(&i);
+            let column = if is_own { i - own } else { place[i] };
+            let (rows, sums) = if is_own {
+                (&mut self.undamped, &mut self.loads)
+            } else {
+                (&mut self.by_shared, &mut self.loads_by_shared)
+            };
+            for k in 0..m {
+                rows.set(k, column, table.modal[k][lane]);
+            }
+            for (k, load) in table.loads.iter().enumerate() {
+                sums.set(k, column, load[lane]);
+            }
+        }
+    }
+}
+
+impl System {
+    /// Derivatives of the loads of blade `b` of its rotor by everything but accelerations and attitude.
+    pub(super) fn blade_slopes(
+        &self,
+        at: &Instant<f64>,
+        b: usize,
+        slopes: &mut BladeSlopes,
+        place: &[usize],
+    ) -> BladeLoads<f64> {
+        let mut table =
+            LoadSlopes { modal: [[0.0; DIRECTIONS]; MAX_MODES], loads: [[0.0; DIRECTIONS]; N_LOADS] };
+        let mut loads = BladeLoads::zero();
+        let r = slopes.rotor;
+        let (all, n) = directions(&self.layout, r, b);
+        for directions in all[..n].chunks(DIRECTIONS) {
+            loads = differentiate(BladePass { system: self, at, r, b, directions, table: &mut table });
+            slopes.keep(directions, place, &table);
+        }
+        loads
+    }
+}
+
+/// Entries of y along which a blade is differentiated: its own coordinates and rates, the carrier's motion, the inflow.
+fn directions(layout: &Layout, r: usize, b: usize) -> ([usize; MOST_DIRECTIONS], usize) {
+    let l = &layout.rotors[r];
+    let mut all = [0; MOST_DIRECTIONS];
+    let mut n = 0;
+    for i in (l.modal(b).start..l.modal_rate(b).end).chain(layout.carrier_motion()).chain(l.inflow()) {
+        all[n] = i;
+        n += 1;
+    }
+    (all, n)
+}

@@ -1,0 +1,95 @@
+//! The shared rows differentiated along their states, the carrier's accelerations, and the loads and flapping of every rotor.
+
+use super::{D, N_LOADS, Slopes};
+use crate::numerics::frames::Vec3;
+use crate::numerics::scalar::Real;
+use crate::numerics::wide::DIRECTIONS;
+use crate::system::instant::Instant;
+use crate::system::model::System;
+use crate::system::rotor_loads::{RotorLoads, RotorShare};
+
+/// What a direction is.
+enum Direction {
+    /// A shared state.
+    State(usize),
+    /// An acceleration of the carrier.
+    Acceleration(usize),
+    /// A load of a rotor.
+    Load(usize, usize),
+    /// The flapping of a rotor.
+    Flapping(usize),
+}
+
+impl System {
+    /// Derivatives of the shared rows by shared states, rates of the carrier's motion, loads and flapping of the rotors.
+    pub(super) fn shared_slopes(&self, at: &Instant<f64>, shares: &[RotorShare<f64>], slopes: &mut Slopes) {
+        let n = slopes.shared.len();
+        let moving = self.layout.carrier_motion().end;
+        // the carrier's own inertia does not change: found once
+        let n_rates = if slopes.carrier_known { 0 } else { moving };
+        // rows of kinematics and inflow hold their own rate alone
+        for i in moving..n {
+            slopes.alone_dot.set(i, i, 1.0);
+        }
+        let direction = |k: usize| {
+            if k < n {
+                return Direction::State(k);
+            }
+            if k < n + n_rates {
+                return Direction::Acceleration(k - n);
+            }
+            let (r, j) = ((k - n - n_rates) / (N_LOADS + 1), (k - n - n_rates) % (N_LOADS + 1));
+            if j < N_LOADS { Direction::Load(r, j) } else { Direction::Flapping(r) }
+        };
+        let n_directions = n + n_rates + self.rotors.len() * (N_LOADS + 1);
+        let loads: Vec<[f64; N_LOADS]> = shares.iter().map(|s| loads_array(&s.loads)).collect();
+        for first in (0..n_directions).step_by(DIRECTIONS) {
+            let lanes = DIRECTIONS.min(n_directions - first);
+            let mut loads: Vec<[D; N_LOADS]> = loads.iter().map(|l| l.map(D::cst)).collect();
+            let mut flapping: Vec<D> = shares.iter().map(|s| D::cst(s.beta_1c)).collect();
+            for lane in 0..lanes {
+                match direction(first + lane) {
+                    Direction::State(k) => slopes.y[slopes.shared[k]].eps[lane] = 1.0,
+                    Direction::Acceleration(k) => slopes.y_dot[k].eps[lane] = 1.0,
+                    Direction::Load(r, j) => loads[r][j].eps[lane] = 1.0,
+                    Direction::Flapping(r) => flapping[r].eps[lane] = 1.0,
+                }
+            }
+            let felt: Vec<RotorShare<D>> = loads
+                .iter()
+                .zip(&flapping)
+                .map(|(loads, &beta_1c)| RotorShare { loads: loads_of(loads), beta_1c })
+                .collect();
+            let dual = Instant { t: at.t, y: &slopes.y, y_dot: &slopes.y_dot, inputs: at.inputs };
+            self.shared_rows(&dual, &felt, &mut slopes.f);
+            for lane in 0..lanes {
+                let direction = direction(first + lane);
+                for i in 0..n {
+                    let slope = slopes.f[slopes.shared[i]].eps[lane];
+                    match direction {
+                        Direction::State(k) => slopes.shared_y.set(i, k, slope),
+                        Direction::Acceleration(k) => slopes.alone_dot.set(i, k, slope),
+                        Direction::Load(r, j) => slopes.rotors[r].by_loads.set(i, j, slope),
+                        Direction::Flapping(r) => slopes.rotors[r].by_flapping[i] = slope,
+                    }
+                }
+                match direction {
+                    Direction::State(k) => slopes.y[slopes.shared[k]].eps[lane] = 0.0,
+                    Direction::Acceleration(k) => slopes.y_dot[k].eps[lane] = 0.0,
+                    Direction::Load(..) | Direction::Flapping(_) => {}
+                }
+            }
+        }
+        slopes.carrier_known = true;
+    }
+}
+
+fn loads_array(r: &RotorLoads<f64>) -> [f64; N_LOADS] {
+    let all = [r.force, r.moment, r.aero_force, r.aero_moment].map(Vec3::array);
+    std::array::from_fn(|i| all[i / 3][i % 3])
+}
+
+fn loads_of(loads: &[D; N_LOADS]) -> RotorLoads<D> {
+    let part = |k: usize| Vec3::new(loads[3 * k], loads[3 * k + 1], loads[3 * k + 2]);
+    RotorLoads { force: part(0), moment: part(1), aero_force: part(2), aero_moment: part(3) }
+}
