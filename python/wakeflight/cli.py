@@ -9,14 +9,15 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Callable
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from .errors import InputError, NumericalFailure, WakeflightError, one_line
-from .regime import described
+from .options import described, options_of
+from .wake_arguments import WakeArguments, with_arguments
 
 if TYPE_CHECKING:
     from .aircraft import Aircraft
@@ -87,6 +88,7 @@ def fly(
     azimuth_step: AzimuthStep = None,
     wake_turns: WakeTurns = None,
     wake_scheme: WakeScheme = None,
+    wake_options: WakeArguments = None,
     integrator: Integrator = "ida",
     blades: Blades = None,
     threads: Threads = None,
@@ -94,7 +96,7 @@ def fly(
 ) -> None:
     """Trim, fly a manoeuvre, write run.nc, figures and report.html."""
     given = _given(speed, flight_path, altitude, weight, sideslip, turn_rate, bank)
-    wake = {"azimuth_step": azimuth_step, "turns": wake_turns, "scheme": wake_scheme}
+    wake = {"azimuth_step": azimuth_step, "turns": wake_turns, "scheme": wake_scheme, "--wake": wake_options}
     _check_flight(revolutions, integrator)
     request = _request(aircraft, loading, condition, given, inflow, wake, threads, maneuver, out, blades=blades)
     from .progress import Progress
@@ -117,6 +119,7 @@ def compare(
     azimuth_step: AzimuthStep = None,
     wake_turns: WakeTurns = None,
     wake_scheme: WakeScheme = None,
+    wake_options: WakeArguments = None,
     integrator: Integrator = "ida",
     threads: Threads = None,
     out: Out = None,
@@ -126,7 +129,7 @@ def compare(
     from .progress import Progress
 
     given = _given(speed, flight_path, altitude, weight, None, None, None)
-    wake = {"azimuth_step": azimuth_step, "turns": wake_turns, "scheme": wake_scheme}
+    wake = {"azimuth_step": azimuth_step, "turns": wake_turns, "scheme": wake_scheme, "--wake": wake_options}
     _check_flight(revolutions, integrator)
     requests = [
         _request(aircraft, loading, condition, given, name, wake, threads, maneuver, out, lenient=True)
@@ -174,13 +177,14 @@ def trim(
     azimuth_step: AzimuthStep = None,
     wake_turns: WakeTurns = None,
     wake_scheme: WakeScheme = None,
+    wake_options: WakeArguments = None,
     blades: Blades = None,
     threads: Threads = None,
     out: Out = None,
 ) -> None:
     """Trim the aircraft, print a table, write trim.nc."""
     given = _given(speed, flight_path, altitude, weight, sideslip, turn_rate, bank)
-    wake = {"azimuth_step": azimuth_step, "turns": wake_turns, "scheme": wake_scheme}
+    wake = {"azimuth_step": azimuth_step, "turns": wake_turns, "scheme": wake_scheme, "--wake": wake_options}
     folder = out or Path("runs/trim")
     request = _request(aircraft, loading, condition, given, inflow, wake, threads, None, folder, blades=blades)
     from .progress import Progress
@@ -270,13 +274,14 @@ def converge(
     azimuth_step: AzimuthStep = None,
     wake_turns: WakeTurns = None,
     wake_scheme: WakeScheme = None,
+    wake_options: WakeArguments = None,
     integrator: Integrator = "ida",
     threads: Threads = None,
     out: Out = None,
 ) -> None:
     """Repeat a run at several settings of one discretisation; print error estimate and cost of each."""
     given = _given(speed, flight_path, altitude, weight, sideslip, turn_rate, bank)
-    wake = {"azimuth_step": azimuth_step, "turns": wake_turns, "scheme": wake_scheme}
+    wake = {"azimuth_step": azimuth_step, "turns": wake_turns, "scheme": wake_scheme, "--wake": wake_options}
     stand = {"collective": collective, "shaft_angle": shaft_angle, "climb": climb, "thrust": thrust}
     stand = {name: value for name, value in stand.items() if value is not None}
     _check_flight(revolutions, integrator)
@@ -409,6 +414,7 @@ def tunnel(
     azimuth_step: AzimuthStep = None,
     wake_turns: WakeTurns = None,
     wake_scheme: WakeScheme = None,
+    wake_options: WakeArguments = None,
     threads: Threads = None,
     out: Out = None,
 ) -> None:
@@ -422,7 +428,7 @@ def tunnel(
     from .tunnel import tunnel as solve
 
     solve = _keeping(solve, lambda stand: stand.save(_folder(folder) / "tunnel.nc"))
-    wake = {"azimuth_step": azimuth_step, "turns": wake_turns, "scheme": wake_scheme}
+    wake = {"azimuth_step": azimuth_step, "turns": wake_turns, "scheme": wake_scheme, "--wake": wake_options}
     model = _configured(stand_inflow(inflow), wake, False)
     pair = [each.strip() for each in flapping.split(",")] if flapping and "," in flapping else flapping
     if bool(then) != (duration is not None):
@@ -579,9 +585,7 @@ def _request(
         raise InputError.of("--blades", blades, f"the blades of {loaded.name} are rigid in its file")
     complete = condition_for(loaded, named=condition, **given)
     loaded.core_data(complete)
-    model.step(loaded)
-    if hasattr(model, "core_options"):
-        model.resolved(flight_regime(loaded, complete)).core_options(loaded)
+    model.resolved(flight_regime(loaded, complete)).check_on(loaded)
     if flown is not None:
         flown = flown.for_aircraft(loaded.stick_travel_in, float(loaded.rotor.omega))
         flown.check_span(loaded.stick_travel_in)
@@ -591,14 +595,15 @@ def _request(
 
 def _configured(model: StandInflow, wake: dict[str, Any], lenient: bool) -> Any:
     """`model` with the wake options that were typed."""
-    known = {field.name for field in fields(model)}
-    options = {name: value for name, value in wake.items() if value is not None}
+    known = options_of(model.name)
+    arguments = wake.get("--wake")
+    options = {name: value for name, value in wake.items() if value is not None and name != "--wake"}
     names = {"azimuth_step": "--azimuth-step", "turns": "--wake-turns", "scheme": "--wake-scheme"}
     for name in [name for name in options if name not in known]:
         if not lenient:
             raise InputError.of(names[name], options[name], f"not an option of --inflow {model.name}")
         del options[name]
-    return replace(model, **options)
+    return with_arguments(model, arguments, options, lenient)
 
 
 def _set_threads(threads: int | None) -> None:

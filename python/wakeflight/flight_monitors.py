@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .errors import NumericalFailure
-from .inflow import DynamicInflow, RelaxationWake
 from .limits import stall_angles
 from .model import Model
 from .monitors import Monitor, Places, airframe, rotor
@@ -68,7 +67,7 @@ def monitors(run: Recorder) -> tuple[Monitor, ...]:
         rotor.stall(
             stall_angles(tables), fields["alpha"], fields["mach"], model.area_weights, tip_mach, places, passage
         ),
-        rotor.axial_flow(mu, mu_z, run.scalars["ct"][:n], isinstance(model.inflow, DynamicInflow), time),
+        rotor.axial_flow(mu, mu_z, run.scalars["ct"][:n], model.inflow.is_dynamic, time),
         *airframe.sticks(inches, aircraft.stick_travel_in, time),
         airframe.power(engine, aircraft.limits.power, time),
         airframe.ground(y[:, 12], run.start.condition.altitude, time),
@@ -78,7 +77,7 @@ def monitors(run: Recorder) -> tuple[Monitor, ...]:
 
 def _of_wake(run: Recorder, time: np.ndarray) -> list[Monitor]:
     """What a free wake adds: its vortices, its nodes, its inner solves."""
-    if isinstance(run.model.inflow, DynamicInflow):
+    if run.model.inflow.is_dynamic:
         return []
     n, counted = run.n_recorded, run.counters()
     found: list[Monitor] = []
@@ -86,6 +85,6 @@ def _of_wake(run: Recorder, time: np.ndarray) -> list[Monitor]:
     if distance is not None:
         found.append(rotor.vortex_distance(distance))
         found.append(rotor.node_motion(run.scalars["max_displacement"][:n], run.model.rotor["radius"], time))
-    if isinstance(run.model.inflow, RelaxationWake):
+    if run.model.inflow.is_relaxed:
         found.append(rotor.unrenewed(counted["unconverged_revolutions"], counted["relaxation_updates"]))
     return found

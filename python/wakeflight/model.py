@@ -13,7 +13,7 @@ import numpy as np
 from . import _core, disk
 from .aircraft import Aircraft
 from .condition import FlightCondition
-from .inflow import DynamicInflow, InflowModel, RelaxationWake, TimeMarchingWake
+from .inflow import InflowModel, RelaxationWake
 from .monitors import Bounds, bounds
 from .units import STANDARD_GRAVITY
 
@@ -81,7 +81,7 @@ class CompiledRotor:
     @cached_property
     def bounds(self) -> Bounds:
         """What the motion of this rotor can give at most; without a wake its vortices have the cores of a default one."""
-        wake = self.inflow if isinstance(self.inflow, RelaxationWake | TimeMarchingWake) else RelaxationWake()
+        wake = self.inflow if self.inflow.is_free_wake else RelaxationWake()
         return bounds(self.rotor, self.rotor_tables, self.speed_of_sound, wake, self.has_thin_sections)
 
     def disk_mean(self, inflow: np.ndarray) -> float:
@@ -143,7 +143,7 @@ class Model(CompiledRotor):
             density,
             speed_of_sound,
             STANDARD_GRAVITY,
-            not isinstance(inflow, DynamicInflow),
+            not inflow.is_dynamic,
             d.n_elements,
             d.n_modes,
             d.n_gauss,

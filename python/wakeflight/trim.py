@@ -14,7 +14,7 @@ from . import _core
 from .aircraft import Aircraft
 from .condition import FlightCondition, condition_for
 from .errors import NumericalFailure
-from .inflow import DynamicInflow, InflowModel, TimeMarchingWake, inflow_model, trim_model
+from .inflow import DynamicInflow, InflowModel, inflow_model, trim_model
 from .model import Model
 from .monitors import Monitor, failures, warnings
 from .progress import Progress, Silent
@@ -188,11 +188,11 @@ def trim(
     progress.phase("trim", None)
 
     # dynamic inflow first: the result itself, or the start of the free wake
-    dynamic = chosen if isinstance(chosen, DynamicInflow) else DynamicInflow(n_stations=chosen.n_stations)
+    dynamic = chosen if chosen.is_dynamic else DynamicInflow(n_stations=chosen.n_stations)
     simple = Model.build(aircraft, condition, dynamic)
     problem, x = solve_condition(simple, n_harmonics)
     progress.advance(1, "dynamic inflow")
-    if isinstance(chosen, DynamicInflow):
+    if chosen.is_dynamic:
         none = windmill(simple, problem, x)
         if none is not None:
             raise NumericalFailure(none)
@@ -203,7 +203,7 @@ def trim(
     inflow_map, _ = dynamic_map(simple, problem, x, model.steps_per_revolution)
     x = np.delete(x, slice(7, 10))
     wake = WakeInTrim(model, inflow_map, steadied=True)
-    marching = isinstance(chosen, TimeMarchingWake)
+    marching = chosen.is_marching
     found = on_relaxation(model, wake, x, inflow_map, n_harmonics, progress, control_tolerance, start_only=marching)
     if marching:
         model = Model.build(aircraft, condition, chosen)
@@ -234,7 +234,7 @@ def physical(found: Trim) -> Trim:
 def trim_inputs(start: Trim, t: float) -> _core.Inputs:
     """Inputs that hold the trim at time `t`: the map at each blade's azimuth, or the inflow states."""
     model = start.model
-    if isinstance(model.inflow, DynamicInflow):
+    if model.inflow.is_dynamic:
         return _core.Inputs(start.x[:4], np.zeros(4), 0.0, None, 0.0, start.stabilator_incidence)
     n = start.inflow_map.shape[0]
     first = round(model.omega * t / (2 * np.pi) * n)

@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 
 from . import _core
-from .inflow import DynamicInflow
 from .limits import in_vortex_ring, momentum_inflows, stall_angles, stalled, sticks_beyond
 from .model import Model
 from .monitors.rotor import SLOW, STALLED_SHARE
@@ -40,9 +39,7 @@ def limiting(
     hub, _ = model.core.hub(model.core.trim_state(problem, x, 0.0)[0])
     hover = np.sqrt(0.5 * abs(rotor["ct"])) * model.tip_speed
     if in_vortex_ring(-hub[2], np.hypot(hub[0], hub[1]), hover):
-        answer = (
-            "momentum inflow has no answer" if isinstance(model.inflow, DynamicInflow) else "the wake stays in the disk"
-        )
+        answer = "momentum inflow has no answer" if model.inflow.is_dynamic else "the wake stays in the disk"
         texts.append(
             f"axial flow in the vortex-ring range (descent at {-hub[2] / hover:.2f} of the induced velocity of hover): {answer}"
         )

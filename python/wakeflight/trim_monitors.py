@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .inflow import DynamicInflow
 from .limits import stall_angles
 from .model import CompiledRotor
 from .monitors import Monitor, Places, airframe, rotor, vortices
@@ -51,7 +50,7 @@ def monitors(start: Trim) -> tuple[Monitor, ...]:
         rotor.angle_of_attack(alpha, places),
         stalled,
         rotor.pitch({"collective": at_75, "cyclic": cyclic}, float(np.arctan2(-mu_z, 0.75)), why),
-        rotor.axial_flow(mu, mu_z, mean["ct"], isinstance(start.inflow, DynamicInflow)),
+        rotor.axial_flow(mu, mu_z, mean["ct"], start.inflow.is_dynamic),
         *airframe.sticks(start.stick, start.aircraft.stick_travel_in),
         airframe.tail_rotor(tail_loading(model, start.problem, start.x), TAIL_LOADING, ring),
         airframe.power(mean["power"], start.aircraft.limits.power),

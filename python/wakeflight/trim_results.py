@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .inflow import DynamicInflow
 from .model import flight_regime
 from .modes import mode_labels
 from .monitors import lines, variables
@@ -186,7 +185,7 @@ def table(start: Trim) -> str:
             f"blade harmonics {residuals['harmonics']:.1e} rad",
         ),
     ]
-    if not isinstance(start.inflow, DynamicInflow) and start.history:
+    if not start.inflow.is_dynamic and start.history:
         last = start.history[-1]
         rows.append(
             (
@@ -203,7 +202,7 @@ def table(start: Trim) -> str:
 
 def _wake_length(start: Trim) -> str:
     """Regime and length of a free wake, to follow its name."""
-    if isinstance(start.inflow, DynamicInflow):
+    if start.inflow.is_dynamic:
         return ""
     regime = flight_regime(start.aircraft, start.condition)
     return f", {start.inflow.turns:g} turns free, {start.inflow.far_wake_turns} repeated ({REGIMES[regime]})"

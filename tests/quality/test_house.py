@@ -29,8 +29,10 @@ RUST_ORDER = (
 PYTHON_ORDER = (
     {"_core", "errors", "schema", "regime", "disk"},
     {"units", "references", "vortex", "progress", "limits", "text"},
+    {"options"},
+    {"presets"},
     {"condition", "inflow", "results", "maneuvers", "wing", "monitors"},
-    {"aircraft", "thinning"},
+    {"aircraft", "thinning", "wake_arguments"},
     {"model", "modes"},
     {"integrators", "exchange"},
     {"wake_trim", "trim_results", "trim_equations"},

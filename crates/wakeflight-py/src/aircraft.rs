@@ -15,7 +15,6 @@ use wakeflight::blade::aerodynamics::Air;
 use wakeflight::blade::model::Discretisation;
 use wakeflight::numerics::frames::{Hub, Vec3};
 use wakeflight::rotor::circulation::BladeInstant;
-use wakeflight::wake::WakeOptions;
 
 fn invalid(error: impl std::fmt::Display) -> PyErr {
     PyValueError::new_err(error.to_string())
@@ -312,7 +311,7 @@ impl PyAircraft {
         lambda_far: PyReadonlyArray2<f64>,
         start: PyReadonlyArray2<f64>,
     ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>, f64, usize)> {
-        let options: WakeOptions = serde_json::from_str(wake_options).map_err(invalid)?;
+        let options = crate::options::wake_options(wake_options)?;
         let y = y.as_slice()?;
         let hub = self.inner.hub_motion(y, &vec![0.0; y.len()]);
         let inputs = Inputs {
@@ -338,7 +337,7 @@ impl PyAircraft {
         let start: Vec<f64> = start.as_array().iter().copied().collect();
         let all = py
             .detach(|| self.inner.rotor.circulations(self.inner.air, &options, &hub, &instants, &far, &start))
-            .map_err(|e| pyo3::exceptions::PyArithmeticError::new_err(e.to_string()))?;
+            .map_err(crate::wake::py_error)?;
         let shape = |v| Array::from_shape_vec((instants.len(), n), v).map_err(invalid);
         let (gamma, inflow) = (shape(all.gamma)?, shape(all.inflow)?);
         Ok((gamma.into_pyarray(py), inflow.into_pyarray(py), all.residual, all.followed))

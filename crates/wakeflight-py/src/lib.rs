@@ -6,6 +6,7 @@ mod atmosphere;
 mod blade;
 mod flight;
 mod inflow;
+mod options;
 mod rotor;
 mod stand;
 mod vortex;
@@ -21,6 +22,7 @@ fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
     flight::register(m)?;
     stand::register(m)?;
     inflow::register(m)?;
+    options::register(m)?;
     vortex::register(m)?;
     wake::register(m)?;
     Ok(())

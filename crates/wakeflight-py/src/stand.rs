@@ -19,7 +19,6 @@ use wakeflight::rotor::data::RotorData;
 use wakeflight::rotor::hub::Rotor;
 use wakeflight::rotor::stand::{ControlEquation, Stand, StandInflow, StandProblem};
 use wakeflight::rotor::swashplate::{MovingPitch, PitchHarmonic, Rigging};
-use wakeflight::wake::WakeOptions;
 
 fn invalid(error: impl std::fmt::Display) -> PyErr {
     PyValueError::new_err(error.to_string())
@@ -248,7 +247,7 @@ impl PyStand {
         start: PyReadonlyArray2<f64>,
     ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>, f64, usize)> {
         let _ = stick_rate;
-        let options: WakeOptions = serde_json::from_str(wake_options).map_err(invalid)?;
+        let options = crate::options::wake_options(wake_options)?;
         let (velocity, rates) = hub_state(y.as_slice()?)?;
         let hub = self.inner.hub(velocity, rates);
         let (q, q_dot) = (q.as_array(), q_dot.as_array());
@@ -266,7 +265,7 @@ impl PyStand {
         let start: Vec<f64> = start.as_array().iter().copied().collect();
         let all = py
             .detach(|| self.inner.rotor.circulations(self.inner.air, &options, &hub, &instants, &far, &start))
-            .map_err(|e| PyArithmeticError::new_err(e.to_string()))?;
+            .map_err(crate::wake::py_error)?;
         let (n, width) = (self.inner.rotor.blade.stations.len(), self.inner.rotor.inflow_width());
         let shape = |m, v| Array::from_shape_vec((instants.len(), m), v).map_err(invalid);
         let (gamma, inflow) = (shape(n, all.gamma)?, shape(width, all.inflow)?);

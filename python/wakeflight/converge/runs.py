@@ -12,7 +12,7 @@ import numpy as np
 
 from ..condition import FlightCondition
 from ..flight import Flight, flown_steps, fly
-from ..inflow import DynamicInflow, trim_model
+from ..inflow import trim_model
 from ..maneuvers import Maneuver
 from ..model import Model, flight_regime
 from ..modes import blade_modes
@@ -258,7 +258,7 @@ class FlightRun:
         flight: Flight = fly(
             start,
             self.maneuver,
-            inflow=start.inflow if isinstance(start.inflow, DynamicInflow) else case.inflow,
+            inflow=start.inflow if start.inflow.is_dynamic else case.inflow,
             revolutions=self.revolutions,
             integrator=self.integrator,
             progress=progress,
@@ -294,7 +294,7 @@ def build(case: Case, condition: FlightCondition) -> Model:
 
     inflow = case.inflow.resolved(flight_regime(case.flying, condition))
     inflow.step(case.flying)
-    if not isinstance(inflow, DynamicInflow):
+    if not inflow.is_dynamic:
         inflow.core_options(case.flying)
     try:
         return Model.build(case.flying, condition, inflow)

@@ -128,7 +128,7 @@ def _trim(case: Case, log: Log) -> Any:
     from ..trim import trim
 
     model = trim_model(case.inflow)
-    if isinstance(model, RelaxationWake):
+    if model.is_relaxed:
         # the cap in flight is no part of a trim
         model = replace(model, max_loops_response=RelaxationWake().max_loops_response)
     key = (model, case.condition, case.given, case.modes)

@@ -217,7 +217,7 @@ def _compiled(
 ) -> tuple[StandModel, StandModel | None]:
     """The rotor with dynamic inflow, and with the free wake where that is asked for."""
     dynamic = model
-    if not isinstance(model, DynamicInflow):
+    if not model.is_dynamic:
         dynamic = DynamicInflow(n_stations=model.n_stations, azimuth_step=None)
     try:
         windmill = dynamic is model

@@ -12,7 +12,7 @@ import numpy as np
 from .. import _core
 from ..aircraft import Rotor
 from ..errors import InputError
-from ..inflow import MODELS, AnnularInflow, DynamicInflow, InflowModel, TimeMarchingWake, inflow_model
+from ..inflow import MODELS, AnnularInflow, InflowModel, inflow_model
 from ..model import CompiledRotor
 from ..trim_equations import resample
 from ..units import STANDARD_GRAVITY
@@ -70,7 +70,7 @@ class StandModel(CompiledRotor):
             condition.density,
             condition.speed_of_sound,
             STANDARD_GRAVITY,
-            not isinstance(inflow, DynamicInflow),
+            not inflow.is_dynamic,
             d.n_elements,
             d.n_modes,
             d.n_gauss,
@@ -116,14 +116,14 @@ class StandModel(CompiledRotor):
     @property
     def is_dynamic(self) -> bool:
         """Whether the inflow has states of its own: no map of it is held."""
-        return isinstance(self.inflow, DynamicInflow)
+        return self.inflow.is_dynamic
 
     @property
     def is_annular(self) -> bool:
         """Whether every ring of the disk has its own momentum."""
-        return isinstance(self.inflow, AnnularInflow)
+        return self.inflow.is_annular
 
     @property
     def is_marching(self) -> bool:
         """Whether the wake marches in time."""
-        return isinstance(self.inflow, TimeMarchingWake)
+        return self.inflow.is_marching
