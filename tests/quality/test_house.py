@@ -27,9 +27,9 @@ RUST_ORDER = (
 
 # each module may import itself and the rows before its own; a new module needs its place here
 PYTHON_ORDER = (
-    {"_core", "errors", "schema", "regime", "disk"},
+    {"_core", "errors", "results", "regime"},
     {"units", "references", "vortex", "progress", "limits", "text"},
-    {"condition", "inflow", "results", "maneuvers", "wing", "monitors"},
+    {"condition", "inflow", "maneuvers", "wing", "monitors"},
     {"aircraft", "thinning"},
     {"model", "modes"},
     {"integrators", "exchange"},
@@ -40,10 +40,11 @@ PYTHON_ORDER = (
     {"recorder"},
     {"trim"},
     {"flight", "tunnel"},
-    {"linearize", "sweep", "converge"},
+    {"linearize", "sweep"},
     {"plotting", "export"},
     {"report"},
-    {"validate", "paper"},
+    {"studies"},
+    {"validate"},
     {"cli"},
     {"__main__"},
 )

@@ -3,7 +3,7 @@
 import numpy as np
 import synthetic
 
-from wakeflight.paper.cases import base_cases, question_cases
+from wakeflight.studies.paper.cases import base_cases, question_cases
 
 COUNTED = {
     "segment_evaluations_trim": 40_000_000,

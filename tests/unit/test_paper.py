@@ -9,11 +9,11 @@ import pytest
 import synthetic
 import xarray as xr
 
-from wakeflight.paper import cases, cost, quantities, viewer
-from wakeflight.paper.figures import FIGURES
-from wakeflight.paper.statements import VERDICTS, counts, judge
-from wakeflight.paper.statements.conclusions import lag
-from wakeflight.paper.statements.verdict import Statement, larger, within
+from wakeflight.studies.paper import cases, cost, quantities, viewer
+from wakeflight.studies.paper.figures import FIGURES
+from wakeflight.studies.paper.statements import VERDICTS, counts, judge
+from wakeflight.studies.paper.statements.conclusions import lag
+from wakeflight.studies.paper.statements.verdict import Statement, larger, within
 
 
 @pytest.fixture(scope="module")

@@ -45,9 +45,9 @@ def converge(
     """Repeat a run at several settings of one discretisation; print error estimate and cost of each."""
     check_flight(revolutions, integrator)
     folder = run.out or Path("runs/converge")
-    from ..converge import converge as study_of
     from ..plotting import convergence, style
     from ..progress import Progress
+    from ..studies.converge import converge as study_of
 
     flown: Any
     base: dict[str, Any]

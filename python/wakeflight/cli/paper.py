@@ -24,8 +24,8 @@ def paper(
     if jobs is not None and not 1 <= jobs <= 64:
         raise InputError.of("--jobs", jobs, "must lie between 1 and 64")
     folder = writable(out or Path("runs/paper"))
-    from ..paper import reproduce
     from ..progress import Progress
+    from ..studies.paper import reproduce
 
     with Progress() as progress:
         path = reproduce(folder_made(folder), redraw, jobs, progress, studies)

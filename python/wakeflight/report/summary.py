@@ -10,7 +10,7 @@ import numpy as np
 
 from ..condition import described
 from ..plotting.disk import revolutions_flown
-from ..schema import ATTRIBUTES
+from ..results.schema import ATTRIBUTES
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..plotting.disk import TURN, difference, revolution_map
+from ...plotting.disk import TURN, difference, revolution_map
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...inflow import TimeMarchingWake
-from ...plotting import style
-from ...plotting.style import styled
+from ....inflow import TimeMarchingWake
+from ....plotting import style
+from ....plotting.style import styled
 from ..cases import Case
 from ..quantities import DEG, smoothed
 from .finding import Finding

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...plotting.disk import revolution_map
+from ....plotting.disk import revolution_map
 from .. import cost
 from .. import quantities as q
 from ..cases import MANEUVERS

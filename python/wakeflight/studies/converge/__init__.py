@@ -6,13 +6,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from ..aircraft import Aircraft, Rotor, load_rotor
-from ..condition import FlightCondition, condition_for
-from ..errors import InputError, NumericalFailure
-from ..inflow import InflowModel, inflow_model
-from ..maneuvers import SHIPPED, Maneuver, load_maneuver
-from ..progress import Progress, Silent
-from ..tunnel import stand_inflow
+from ...aircraft import Aircraft, Rotor, load_rotor
+from ...condition import FlightCondition, condition_for
+from ...errors import InputError, NumericalFailure
+from ...inflow import InflowModel, inflow_model
+from ...maneuvers import SHIPPED, Maneuver, load_maneuver
+from ...progress import Progress, Silent
+from ...tunnel import stand_inflow
 from .parameters import PARAMETERS, Case, Parameter, applied, check_run, parameter, settings
 from .runs import FlightRun, ModesRun, Outcome, Run, TrimRun, TunnelRun, warm
 from .study import Study

@@ -10,17 +10,17 @@ from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
-from ..condition import FlightCondition
-from ..flight import Flight, flown_steps, fly
-from ..inflow import DynamicInflow, trim_model
-from ..maneuvers import Maneuver
-from ..model import Model, flight_regime
-from ..modes import blade_modes
-from ..progress import Progress, Silent
-from ..trim import Trim, trim
-from ..trim_results import HORSEPOWER, first_harmonics
-from ..tunnel import check as check_stand
-from ..tunnel import tunnel
+from ...condition import FlightCondition
+from ...flight import Flight, flown_steps, fly
+from ...inflow import DynamicInflow, trim_model
+from ...maneuvers import Maneuver
+from ...model import Model, flight_regime
+from ...modes import blade_modes
+from ...progress import Progress, Silent
+from ...trim import Trim, trim
+from ...trim_results import HORSEPOWER, first_harmonics
+from ...tunnel import check as check_stand
+from ...tunnel import tunnel
 from .parameters import Case, Parameter, tightened
 
 
@@ -290,7 +290,7 @@ class FlightRun:
 
 def build(case: Case, condition: FlightCondition) -> Model:
     """The compiled model; what the physics core refuses becomes an error of the input."""
-    from ..errors import InputError
+    from ...errors import InputError
 
     inflow = case.inflow.resolved(flight_regime(case.flying, condition))
     inflow.step(case.flying)

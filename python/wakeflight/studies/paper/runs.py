@@ -11,9 +11,9 @@ from concurrent.futures import ProcessPoolExecutor, as_completed
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..errors import InputError, NumericalFailure
-from ..progress import Progress, Silent
-from ..results import load, save
+from ...errors import InputError, NumericalFailure
+from ...progress import Progress, Silent
+from ...results import load, save
 from .cases import Case
 
 if TYPE_CHECKING:
@@ -89,8 +89,8 @@ class Log(Silent):
 
 def _fly(case: Case, path: Path) -> str:
     """Fly one case and save it; the failure as text, or nothing."""
-    from ..flight import fly
-    from ..maneuvers import load_maneuver
+    from ...flight import fly
+    from ...maneuvers import load_maneuver
 
     clock, log = time.process_time(), Log()
     try:
@@ -122,10 +122,10 @@ def _fly(case: Case, path: Path) -> str:
 def _trim(case: Case, log: Log) -> Any:
     from dataclasses import replace
 
-    from ..aircraft import load_aircraft
-    from ..condition import condition_for
-    from ..inflow import RelaxationWake, trim_model
-    from ..trim import trim
+    from ...aircraft import load_aircraft
+    from ...condition import condition_for
+    from ...inflow import RelaxationWake, trim_model
+    from ...trim import trim
 
     model = trim_model(case.inflow)
     if isinstance(model, RelaxationWake):

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..plotting import style
-from ..plotting.disk import difference, draw, mark_directions, tidy
-from ..plotting.style import styled
-from ..plotting.wake_geometry import VIEWS
+from ...plotting import style
+from ...plotting.disk import difference, draw, mark_directions, tidy
+from ...plotting.style import styled
+from ...plotting.wake_geometry import VIEWS
 from .quantities import axis_of, filament
 
 if TYPE_CHECKING:

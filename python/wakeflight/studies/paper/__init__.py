@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from ..progress import Progress
+    from ...progress import Progress
 
 __all__ = ["reproduce"]
 
@@ -24,7 +24,7 @@ def reproduce(
     with_studies: also what goes beyond the paper, many more flights. Returns the path of report.html; flights are kept in
     `out_dir`/flights, wakes for ParaView in `out_dir`/paraview.
     """
-    from ..aircraft import load_aircraft
+    from ...aircraft import load_aircraft
     from . import studies
     from .cases import base_cases, question_cases
     from .page import write

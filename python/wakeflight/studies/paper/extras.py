@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..plotting import style
-from ..plotting.histories import DEG
-from ..plotting.style import styled
+from ...plotting import style
+from ...plotting.histories import DEG
+from ...plotting.style import styled
 from . import cost
 from .cases import CAPS, MANEUVERS, MODELS, UNTIL_CONVERGED, cap_name
 from .drawings import LOOKS

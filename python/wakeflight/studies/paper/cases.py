@@ -10,11 +10,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from ..inflow import DynamicInflow, RelaxationWake, TimeMarchingWake
+from ...inflow import DynamicInflow, RelaxationWake, TimeMarchingWake
 
 if TYPE_CHECKING:
-    from ..inflow import InflowModel
-    from ..maneuvers import Maneuver
+    from ...inflow import InflowModel
+    from ...maneuvers import Maneuver
 
 MANEUVERS = ("arrested-descent", "roll-reversal")
 MODELS: dict[str, InflowModel] = {

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..export import vtk
-from ..plotting.style import save
-from ..report.summary import configuration, counters, summary, warnings
+from ...export import vtk
+from ...plotting.style import save
+from ...report.summary import configuration, counters, summary, warnings
 from . import cost, extras, viewer
 from .cases import MANEUVERS, MODELS
 from .figures import FIGURES
@@ -61,7 +61,7 @@ def write(
     }
     export(flights, out_dir / "paraview")
     environment = Environment(
-        loader=PackageLoader("wakeflight.paper", "templates"),
+        loader=PackageLoader("wakeflight.studies.paper", "templates"),
         autoescape=True,
         undefined=StrictUndefined,
         trim_blocks=True,

@@ -6,9 +6,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from ...plotting import histories
-from ...plotting.histories import DEG, Panel
-from ...plotting.style import styled
+from ....plotting import histories
+from ....plotting.histories import DEG, Panel
+from ....plotting.style import styled
 from ..cases import MODELS, Case
 from ..statements import descent
 from .finding import Finding, verdict_changes

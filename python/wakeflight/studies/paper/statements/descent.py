@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...plotting.disk import difference, revolution_map
+from ....plotting.disk import difference, revolution_map
 from .. import quantities as q
 from .verdict import Condition, Statement, above, at_least, below, larger, ordered, within
 

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...inflow import RelaxationWake, TimeMarchingWake
-from ...plotting import style
-from ...plotting.style import styled
+from ....inflow import RelaxationWake, TimeMarchingWake
+from ....plotting import style
+from ....plotting.style import styled
 from ..cases import Case
 from ..quantities import DEG, excursion, extreme, period, rms_difference, smoothed
 from ..statements.conclusions import lag

@@ -7,11 +7,11 @@ import math
 from dataclasses import dataclass, fields, replace
 from typing import Any, Literal
 
-from ..aircraft import Aircraft, Rotor
-from ..errors import InputError
-from ..flight import RTOL
-from ..inflow import DynamicInflow, InflowModel, RelaxationWake, TimeMarchingWake
-from ..units import quantity
+from ...aircraft import Aircraft, Rotor
+from ...errors import InputError
+from ...flight import RTOL
+from ...inflow import DynamicInflow, InflowModel, RelaxationWake, TimeMarchingWake
+from ...units import quantity
 
 INFLOW_TOLERANCE = 1e-5
 """Of a trim on a free wake in a study, ten times tighter than by default: iterations must not hide what is studied."""

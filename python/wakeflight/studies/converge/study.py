@@ -140,7 +140,7 @@ class Study:
 
     def save(self, folder: str | Path) -> list[Path]:
         """Write converge.nc, converge.csv and converge.md into `folder`."""
-        from ..results import save
+        from ...results import save
 
         folder = Path(folder)
         paths = [save(self.data, folder / "converge.nc")]

@@ -6,9 +6,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from ...inflow import RelaxationWake, TimeMarchingWake
-from ...plotting import style
-from ...plotting.style import styled
+from ....inflow import RelaxationWake, TimeMarchingWake
+from ....plotting import style
+from ....plotting.style import styled
 from ..cases import MANEUVERS, MODELS, Case
 from ..drawings import LOOKS
 from ..quantities import period, smoothed

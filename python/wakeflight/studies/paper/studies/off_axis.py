@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...inflow import DynamicInflow, TimeMarchingWake
-from ...maneuvers import Maneuver
-from ...plotting import style
-from ...plotting.style import styled
+from ....inflow import DynamicInflow, TimeMarchingWake
+from ....maneuvers import Maneuver
+from ....plotting import style
+from ....plotting.style import styled
 from ..cases import Case
 from ..quantities import DEG
 from .finding import Finding

@@ -12,9 +12,9 @@ from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING
 
-from ..plotting import disk, histories, trim_maps
-from ..plotting.histories import DEG, Panel
-from ..plotting.style import styled
+from ...plotting import disk, histories, trim_maps
+from ...plotting.histories import DEG, Panel
+from ...plotting.style import styled
 from . import drawings
 from .quantities import change_from_trim
 from .statements.roll import roll_weight

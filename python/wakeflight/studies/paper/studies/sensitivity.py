@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...inflow import RelaxationWake, TimeMarchingWake
-from ...plotting import style
-from ...plotting.style import styled
+from ....inflow import RelaxationWake, TimeMarchingWake
+from ....plotting import style
+from ....plotting.style import styled
 from ..cases import Case
 from ..quantities import change_from_trim, extreme, sector_mean
 from ..statements import descent

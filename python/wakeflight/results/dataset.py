@@ -1,25 +1,22 @@
-"""Results: datasets assembled and checked against the schema, saved to and loaded from NetCDF."""
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""Datasets assembled from arrays and checked against the schema."""
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
 from importlib.metadata import PackageNotFoundError, version
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .attributes import flat_attributes
+from .errors import ResultsError
 from .schema import ATTRIBUTES, COORDINATES, RUN, TRANSIENT, TRIM, TUNNEL, Variable
 
 if TYPE_CHECKING:
     import xarray as xr
 
 Arrays = Mapping[str, Any]
-
-
-class ResultsError(ValueError):
-    """Arrays that do not fit the schema: names the variable, what it has and what is expected."""
 
 
 def assemble(arrays: Arrays, attributes: Mapping[str, Any]) -> xr.Dataset:
@@ -57,90 +54,6 @@ def assemble_transient(arrays: Arrays, attributes: Mapping[str, Any]) -> xr.Data
     marked = {"program_version": _program_version(), **attributes}
     marked["finished"] = int(not marked.get("failure"))
     return _dataset(TRANSIENT, arrays, marked, increasing=("time", "station", "age"))
-
-
-def save(dataset: xr.Dataset, path: str | Path) -> Path:
-    """Write NetCDF-4, compressed; the same dataset gives the same bytes. Returns the path."""
-    path = Path(path)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    flat = dataset.copy()
-    flat.attrs = flat_attributes(dataset.attrs)
-    encoding = {
-        name: {"zlib": True, "complevel": 4, "shuffle": True}
-        for name, variable in flat.variables.items()
-        if variable.ndim and variable.dtype.kind in "fiu"
-    }
-    flat.to_netcdf(path, engine="h5netcdf", format="NETCDF4", encoding=encoding)
-    return path
-
-
-def load(path: str | Path) -> xr.Dataset:
-    """Read a run or a trim back into memory; the file is closed."""
-    import xarray as xr
-
-    path = Path(path)
-    if not path.is_file():
-        raise ResultsError(f"{path}: no such file")
-    try:
-        return xr.load_dataset(path, engine="h5netcdf")
-    except OSError as error:
-        raise ResultsError(f"{path}: not a NetCDF-4 file ({error})") from error
-
-
-def flat_attributes(attributes: Mapping[str, Any]) -> dict[str, str | int | float]:
-    """Attributes as plain text and numbers: a mapping becomes JSON text and a dotted name per scalar."""
-    flat: dict[str, str | int | float] = {}
-    for name, value in attributes.items():
-        if isinstance(value, Mapping):
-            flat |= _leaves(name, value)
-            flat[name] = _scalar(name, value)
-        else:
-            flat[name] = _scalar(name, value)
-    return flat
-
-
-def _leaves(prefix: str, mapping: Mapping[str, Any]) -> dict[str, str | int | float]:
-    """Scalars of a nested mapping by dotted names; tables and lists stay in the JSON text alone."""
-    leaves: dict[str, str | int | float] = {}
-    for key, value in mapping.items():
-        name = f"{prefix}.{key}"
-        if isinstance(value, Mapping):
-            leaves |= _leaves(name, value)
-        elif not isinstance(_plain(value), list):
-            leaves[name] = _scalar(name, value)
-    return leaves
-
-
-def _scalar(name: str, value: Any) -> str | int | float:
-    """One attribute as text or a finite number."""
-    value = _plain(value)
-    if value is None:
-        return "none"
-    if isinstance(value, bool):
-        return int(value)
-    if isinstance(value, float) and not np.isfinite(value):
-        raise ResultsError(f"attribute {name}: {value} is not finite")
-    if isinstance(value, str | int | float):
-        return value
-    try:
-        return json.dumps(value, default=_plain, sort_keys=True, allow_nan=False)
-    except ValueError as error:
-        raise ResultsError(f"attribute {name}: {error}") from error
-
-
-def _plain(value: Any) -> Any:
-    """Numpy numbers and arrays, paths and tuples as what JSON knows."""
-    if isinstance(value, np.generic):
-        return value.item()
-    if isinstance(value, np.ndarray):
-        return value.tolist()
-    if isinstance(value, Path):
-        return str(value)
-    if isinstance(value, tuple | set | frozenset):
-        return list(value)
-    if isinstance(value, str | int | float | bool | list | dict | Mapping) or value is None:
-        return dict(value) if isinstance(value, Mapping) else value
-    raise ResultsError(f"{type(value).__name__} cannot be stored as an attribute")
 
 
 def _dataset(
