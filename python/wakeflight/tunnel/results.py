@@ -10,9 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..errors import InputError
-from ..modes import mode_labels
-from ..monitors import Monitor, failures, lines, variables, warnings
-from ..trim_results import HORSEPOWER
+from ..monitors import Monitor, failures, warnings
 from .solve import Revolution, Solution, by_azimuth
 
 if TYPE_CHECKING:
@@ -21,8 +19,6 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from ..progress import Progress, Silent
-
-SECTION_FIELDS = ("cl", "cd", "cm", "alpha", "mach")
 
 
 class Tunnel:
@@ -100,7 +96,7 @@ class Tunnel:
         found = [self._passages(name) for name in names]
         return self.azimuth[found[0][0].ravel()], [values.reshape(-1, values.shape[-1]) for _, values in found]
 
-    def _by_azimuth(self, name: str) -> np.ndarray:
+    def mean_by_azimuth(self, name: str) -> np.ndarray:
         """Mean of a quantity by azimuth (n, ...)."""
         if not self.turns_kept:
             return self._periodic[name]
@@ -112,9 +108,9 @@ class Tunnel:
         values = np.concatenate([turn.passages[name] for turn in self.turns_kept])
         return rows, values
 
-    def _spread(self, name: str) -> np.ndarray:
+    def spread_by_azimuth(self, name: str) -> np.ndarray:
         """Standard deviation over the passages of each azimuth."""
-        mean = self._by_azimuth(name)
+        mean = self.mean_by_azimuth(name)
         if not self.turns_kept:
             return np.zeros_like(mean)
         rows, values = self._passages(name)
@@ -122,7 +118,7 @@ class Tunnel:
 
     def _mean_load(self, name: str) -> np.ndarray:
         """Mean of a load of all blades (3,)."""
-        return self.model.n_blades * self._by_azimuth(name).mean(axis=0)
+        return self.model.n_blades * self.mean_by_azimuth(name).mean(axis=0)
 
     @cached_property
     def azimuth(self) -> np.ndarray:
@@ -158,7 +154,8 @@ class Tunnel:
         return self._mean_load("moment")
 
     @property
-    def _scale(self) -> float:
+    def thrust_scale(self) -> float:
+        """Dynamic pressure of the tip times the disk area [N]."""
         return self.model.dynamic_pressure_area
 
     @property
@@ -184,12 +181,12 @@ class Tunnel:
     @property
     def ct(self) -> float:
         """Thrust coefficient T/(rho pi R^2 (Omega R)^2)."""
-        return self.thrust / self._scale
+        return self.thrust / self.thrust_scale
 
     @property
     def cq(self) -> float:
         """Torque coefficient Q/(rho pi R^3 (Omega R)^2)."""
-        return self.torque / (self._scale * self.radius)
+        return self.torque / (self.thrust_scale * self.radius)
 
     @property
     def cp(self) -> float:
@@ -250,7 +247,7 @@ class Tunnel:
 
     def inflow_harmonics(self) -> tuple[float, float, float]:
         """lambda_0, lambda_1c, lambda_1s of the inflow: see `disk.first_harmonics`."""
-        return self.model.first_harmonics(self._by_azimuth("inflow"))
+        return self.model.first_harmonics(self.mean_by_azimuth("inflow"))
 
     # --- wake -----------------------------------------------------------------------------------------------
 
@@ -290,53 +287,12 @@ class Tunnel:
 
         return transient(self, collective, duration, progress)
 
-    def _path(self) -> tuple[np.ndarray, np.ndarray] | None:
-        """Mean tip vortex by azimuth (n, n_ages, 3) [m] and the RMS distance from it (n, n_ages)."""
-        s = self.solution
-        if s.wake is None:
-            return None
-        if not self.turns_kept:
-            position = s.wake.relaxation.position()
-            return position, np.zeros(position.shape[:2])
-        rows = np.concatenate([turn.rows for turn in self.turns_kept])
-        path = np.concatenate([turn.path for turn in self.turns_kept])
-        mean = by_azimuth(rows, path, len(self.azimuth))
-        squared = np.sum((path - mean[rows]) ** 2, axis=-1)
-        return mean, np.sqrt(by_azimuth(rows, squared, len(self.azimuth)))
-
-    def _wake_arrays(self) -> dict[str, np.ndarray]:
-        found = self._path()
-        if found is None:
-            return {}
-        path, spread = found
-        s, radius = self.solution, self.radius
-        n = len(self.azimuth)
-        if s.march is not None:
-            wake, strength = s.march.position(), s.march.core.marker_circulation().mean(axis=0)
-        else:
-            rows = [b * n // self.model.n_blades for b in range(self.model.n_blades)]
-            wake = path[rows]
-            strength = np.full(path.shape[1], np.mean(s.wake.relaxation.tip_circulation()))
-        return {
-            "age": 2 * np.pi / n * np.arange(path.shape[1]),
-            "wake": wake,
-            "wake_path": path,
-            "wake_path_std": spread,
-            "tip_vortex_radius": np.hypot(path[..., 0], path[..., 1]).mean(axis=0) / radius,
-            "tip_vortex_height": (path[..., 2] - _released(path)[..., 2]).mean(axis=0) / radius,
-            "tip_vortex_circulation": strength,
-        }
-
-    # --- dataset --------------------------------------------------------------------------------------------
-
     @cached_property
     def data(self) -> xr.Dataset:
         """Everything as an xarray Dataset, SI and radians, every variable with its unit and meaning."""
-        from ..results import assemble_tunnel
+        from .dataset import dataset
 
-        arrays = {**self._scalars(), **self._maps(), **self._motion(), **self._wake_arrays(), **self._histories()}
-        arrays |= variables(self.monitors)
-        return assemble_tunnel({name: np.asarray(value) for name, value in arrays.items()}, self.attributes())
+        return dataset(self)
 
     def save(self, path: str | Path) -> Path:
         """Write `.data` as NetCDF."""
@@ -344,160 +300,14 @@ class Tunnel:
 
         return save(self.data, path)
 
-    def _scalars(self) -> dict[str, Any]:
-        m, c = self.model, self.model.condition
-        names = ("ct", "cq", "cp", "figure_of_merit", "thrust", "torque", "power", "beta_0", "beta_1c", "beta_1s")
-        names += ("theta_0", "theta_1c", "theta_1s", "hub_force", "hub_moment", "aero_force", "aero_moment")
-        lam = self.inflow_harmonics()
-        std = [float(np.std(each)) if len(each) else 0.0 for each in self._per_revolution(self.turns_kept)]
-        return {
-            **{name: getattr(self, name) for name in names},
-            "ct_sigma": self.ct / m.aircraft.solidity,
-            "mu": c.mu(m.tip_speed),
-            "mu_z": c.mu_z(m.tip_speed),
-            "h_force": self.aero_force[0],
-            "side_force": self.aero_force[1],
-            "theta_75": self.theta_0 + m.aircraft.twist(0.75 * self.radius),
-            "inflow_mean": lam[0],
-            "inflow_1c": lam[1],
-            "inflow_1s": lam[2],
-            "ct_std": std[0],
-            "cq_std": std[1],
-            "velocity": np.asarray(c.velocity),
-        }
-
-    def _per_revolution(self, revolutions: list) -> tuple[list[float], list[float]]:
-        """C_T and C_Q of each revolution."""
-        thrust = [turn.passages["aero_force"][..., 2].sum(axis=1).mean() / self._scale for turn in revolutions]
-        torque = [
-            -turn.passages["aero_moment"][..., 2].sum(axis=1).mean() / (self._scale * self.radius)
-            for turn in revolutions
-        ]
-        return thrust, torque
-
-    def _histories(self) -> dict[str, Any]:
-        turns = self.solution.revolutions
-        if not turns:
-            return {}
-        ct, cq = self._per_revolution(turns)
-        return {"ct_history": ct, "cq_history": cq, "theta_0_history": [turn.x[0] for turn in turns]}
-
-    def _maps(self) -> dict[str, Any]:
-        fields = {name: self._by_azimuth(name) for name in (*SECTION_FIELDS, "circulation", "inflow")}
-        cn = fields["cl"] * np.cos(fields["alpha"]) + fields["cd"] * np.sin(fields["alpha"])
-        m2 = fields["mach"] ** 2
-        radial = {f"radial_{name}": fields[name].mean(axis=0) for name in ("cl", "circulation", "inflow", "alpha")}
-        return {
-            "azimuth": self.azimuth,
-            "station": self.model.stations / self.radius,
-            **fields,
-            "cn": cn,
-            "cl_m2": fields["cl"] * m2,
-            "cn_m2": cn * m2,
-            "cm_m2": fields["cm"] * m2,
-            "cl_std": self._spread("cl"),
-            "inflow_std": self._spread("inflow"),
-            **radial,
-            "chord": self.model.rotor["chords"],
-            "width": self.model.rotor["widths"],
-        }
-
-    def _motion(self) -> dict[str, Any]:
-        core, rotor, psi = self.model.core, self.model.rotor, self.azimuth
-        q, _ = core.trim_motion(self.solution.problem, self.x, len(psi))
-        flap, lead = core.equivalent_angles(q)
-        theta = self.theta_0 + self.theta_1c * np.cos(psi) + self.theta_1s * np.sin(psi)
-        for order, cosine, sine in self.model.condition.higher:
-            theta = theta + cosine * np.cos(order * psi) + sine * np.sin(order * psi)
-        tips = {f"tip_{name}": q @ np.asarray(rotor[f"tip_{name}"]) for name in ("flap", "lead", "twist")}
-        modal = {"modal": q * np.asarray(rotor["angle_per_coordinate"])} if q.shape[1] else {}
-        return {"theta": theta, "flap": flap, "lead": lead, **tips, **modal}
-
     def attributes(self) -> dict[str, Any]:
         """Attributes of the Dataset: rotor, condition, inflow, and what was counted."""
-        m, s, c = self.model, self.solution, self.model.condition
-        wake = s.march or s.wake
-        evaluations = 0
-        if wake is not None:
-            evaluations = s.march.segment_evaluations if s.march else s.wake.counters["wake_segment_evaluations"]
-        return {
-            "aircraft": m.aircraft.name,
-            "inflow_model": m.inflow.name,
-            "regime": c.regime(m.tip_speed),
-            "radius": self.radius,
-            "omega": m.omega,
-            "n_blades": m.n_blades,
-            "solidity": m.aircraft.solidity,
-            "density": c.density,
-            "speed_of_sound": c.speed_of_sound,
-            "blade_model": m.blade_model.removesuffix("-incompressible"),
-            "prandtl_glauert": int(m.blade_model == "weissinger"),
-            "blades": "flexible" if m.aircraft.flexible else "rigid",
-            "n_modes": m.aircraft.discretisation.n_modes,
-            "blade_modes": mode_labels(m.aircraft),
-            "blade_frequencies_per_rev": [f / m.omega for f in m.rotor["frequencies"]],
-            "revolutions": len(s.revolutions),
-            "averaged": self.averaged,
-            "settled": int(self.settled),
-            "assumed": "; ".join(self.assumed),
-            "notes": "; ".join(self.notes),
-            "warnings": "\n".join(self.warnings),
-            "failure": "; ".join(self.failures),
-            "residual": self.residual,
-            "seconds_total": self.seconds,
-            "segment_evaluations": evaluations,
-            "configuration": {
-                "rotor": m.aircraft.name,
-                "condition": c.as_given,
-                "inflow": {"model": m.inflow.name, **m.inflow.as_attributes()},
-                "discretisation": m.aircraft.discretisation._asdict(),
-                "n_harmonics": m.n_harmonics,
-            },
-        }
+        from .dataset import attributes
+
+        return attributes(self)
 
     def table(self) -> str:
         """The result as a table to print."""
-        m, deg = self.model, np.degrees
-        c, lam = m.condition, self.inflow_harmonics()
-        std = self._scalars()
-        scatter = f" (+- {std['ct_std']:.6f} over {self.averaged} revolutions)" if self.averaged > 1 else ""
-        sigma = m.aircraft.solidity
-        velocity = c.velocity
-        rows = [
-            ("rotor", f"{m.aircraft.name}, {m.n_blades} blades, R = {self.radius:.4g} m, solidity {sigma:.4f}"),
-            (
-                "condition",
-                f"{c.regime(m.tip_speed)}, mu = {c.mu(m.tip_speed):.4f}, mu_z = {c.mu_z(m.tip_speed):+.4f} (descent +), "
-                f"{np.linalg.norm(velocity):.2f} m/s, {m.omega * 30 / np.pi:.1f} rpm, {c.density:.4f} kg/m3",
-            ),
-            (
-                "inflow, blade model",
-                f"{m.inflow.name}, {m.blade_model}",
-            ),
-            *(("assumed", text) for text in self.assumed),
-            ("theta_0, 1c, 1s", f"{deg(self.theta_0):.3f}, {deg(self.theta_1c):.3f}, {deg(self.theta_1s):.3f} deg"),
-            ("C_T, C_T/sigma", f"{self.ct:.6f}, {self.ct / sigma:.4f}{scatter}"),
-            ("C_Q, figure of merit", f"{self.cq:.7f}, {self.figure_of_merit:.4f}"),
-            ("thrust, torque", f"{self.thrust:.5g} N, {self.torque:.5g} N m"),
-            ("power", f"{self.power / 1e3:.4g} kW ({self.power / HORSEPOWER:.1f} hp)"),
-            ("H force, side force", f"{self.aero_force[0]:.4g} N aft, {self.aero_force[1]:.4g} N right"),
-            (
-                "hub moments",
-                f"{-self.hub_moment[0]:.4g} N m right side down, {self.hub_moment[1]:.4g} N m nose up",
-            ),
-            ("coning, beta_1c, 1s", f"{deg(self.beta_0):.3f}, {deg(self.beta_1c):.3f}, {deg(self.beta_1s):.3f} deg"),
-            ("lambda_0, 1c, 1s", ", ".join(f"{v:.5f}" for v in lam)),
-            ("residual", f"{self.residual:.1e}"),
-            *lines(self.monitors),
-            *(("note", note) for note in self.solution.notes),
-            *(("warning", text) for text in self.warnings),
-        ]
-        width = max(len(name) for name, _ in rows)
-        return "\n".join(f"{name:<{width}}  {value}" for name, value in rows)
+        from .table import table
 
-
-def _released(path: np.ndarray) -> np.ndarray:
-    """Where each marker of a path (n, n_ages, 3) was released: the blade at the azimuth of its age."""
-    n, ages = path.shape[:2]
-    rows = (np.arange(n)[:, None] - np.arange(ages)[None, :]) % n
-    return path[rows, 0]
+        return table(self)
