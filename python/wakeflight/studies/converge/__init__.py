@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 from ...aircraft import Aircraft, Rotor, load_rotor
@@ -13,7 +14,8 @@ from ...inflow import InflowModel, inflow_model
 from ...maneuvers import SHIPPED, Maneuver, load_maneuver
 from ...progress import Progress, Silent
 from ...tunnel import stand_inflow
-from .parameters import PARAMETERS, Case, Parameter, applied, check_run, parameter, settings
+from ..case import Case
+from .parameters import CONTROL_TOLERANCE, PARAMETERS, Parameter, applied, check_run, parameter, settings
 from .runs import FlightRun, ModesRun, Outcome, Run, TrimRun, TunnelRun, warm
 from .study import Study
 
@@ -62,7 +64,7 @@ def converge(
     if len(done) < 2:
         raise NumericalFailure("fewer than two settings finished: " + "; ".join(failures))
     air = "" if run == "modes" else f", {base.inflow.name} inflow"
-    title = f"{aircraft.name}, {repeated.title}{air}: {chosen.name} varied ({chosen.meaning})"
+    title = f"{aircraft.name}, {repeated.title(base)}{air}: {chosen.name} varied ({chosen.meaning})"
     return Study(
         title,
         chosen,
@@ -87,17 +89,20 @@ def _run(
     if run in ("trim", "modes", "tunnel") and revolutions is not None:
         raise InputError.of("revolutions", revolutions, f"{run} has none: choose a manoeuvre")
     if run == "tunnel":
-        return TunnelRun(chosen, dict(stand or {})), Case(load_rotor(aircraft), stand_inflow(inflow))
+        case = Case(load_rotor(aircraft), stand_inflow(inflow), stand=dict(stand or {}))
+        return TunnelRun(chosen), replace(case, control_tolerance=CONTROL_TOLERANCE)
     if stand:
         raise InputError.of("stand", ", ".join(stand), "belongs to the run tunnel")
-    base = Case(aircraft, inflow_model(inflow))
+    if not isinstance(aircraft, Aircraft):
+        raise InputError.of("aircraft", aircraft.name, "a rotor alone does not fly; allowed with it: tunnel")
+    base = Case(aircraft, inflow_model(inflow), control_tolerance=CONTROL_TOLERANCE)
     if run == "modes":
-        return ModesRun(base.flying.discretisation.n_modes), base
-    complete = condition_for(base.flying, condition)
+        return ModesRun(aircraft.discretisation.n_modes), base
+    base = replace(base, condition=condition_for(aircraft, condition))
     if run == "trim":
-        return TrimRun(chosen, complete), base
+        return TrimRun(chosen), base
     maneuver = _maneuver(run) if isinstance(run, str) else run
-    return FlightRun(chosen, complete, maneuver, revolutions, integrator), base
+    return FlightRun(chosen), replace(base, maneuver=maneuver, revolutions=revolutions, integrator=integrator)
 
 
 def _maneuver(run: str) -> Maneuver:

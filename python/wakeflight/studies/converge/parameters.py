@@ -7,11 +7,10 @@ import math
 from dataclasses import dataclass, fields, replace
 from typing import Any, Literal
 
-from ...aircraft import Aircraft, Rotor
 from ...errors import InputError
-from ...flight import RTOL
 from ...inflow import DynamicInflow, InflowModel, RelaxationWake, TimeMarchingWake
 from ...units import quantity
+from ..case import Case
 
 INFLOW_TOLERANCE = 1e-5
 """Of a trim on a free wake in a study, ten times tighter than by default: iterations must not hide what is studied."""
@@ -21,24 +20,6 @@ CONTROL_TOLERANCE = 1e-5
 
 Part = Literal["inflow", "aircraft", "trim", "flight"]
 Kind = Literal["angle", "whole", "number"]
-
-
-@dataclass(frozen=True)
-class Case:
-    """Everything that a run depends on and that can be refined."""
-
-    aircraft: Aircraft | Rotor
-    inflow: InflowModel
-    n_harmonics: int = 8
-    rtol: float = RTOL
-    control_tolerance: float = CONTROL_TOLERANCE
-
-    @property
-    def flying(self) -> Aircraft:
-        """The aircraft; a rotor alone does not fly."""
-        if not isinstance(self.aircraft, Aircraft):
-            raise InputError.of("aircraft", self.aircraft.name, "a rotor alone does not fly; allowed with it: tunnel")
-        return self.aircraft
 
 
 @dataclass(frozen=True)

@@ -3,25 +3,22 @@
 
 from __future__ import annotations
 
-import time
-from collections.abc import Mapping
-from dataclasses import dataclass, field
-from typing import Any, NamedTuple, Protocol
+from dataclasses import dataclass, field, replace
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from ...condition import FlightCondition
-from ...flight import Flight, flown_steps, fly
+from ...errors import InputError, NumericalFailure
+from ...flight import flown_steps
 from ...inflow import DynamicInflow, trim_model
-from ...maneuvers import Maneuver
 from ...model import Model, flight_regime
 from ...modes import blade_modes
 from ...progress import Progress, Silent
-from ...trim import Trim, trim
+from ...trim import Trim
 from ...trim_results import HORSEPOWER, first_harmonics
 from ...tunnel import check as check_stand
-from ...tunnel import tunnel
-from .parameters import Case, Parameter, tightened
+from ..case import Case, Done, Trims, attempt, run
+from .parameters import Parameter, tightened
 
 
 class Quantity(NamedTuple):
@@ -71,6 +68,31 @@ FLIGHT_QUANTITIES = (
 )
 
 
+TUNNEL_QUANTITIES = (
+    Quantity("ct", "1"),
+    Quantity("cq", "1"),
+    Quantity("power", "hp", 1.0 / HORSEPOWER),
+    Quantity("lambda_0", "1"),
+    Quantity("lambda_1c", "1"),
+    Quantity("lambda_1s", "1"),
+    Quantity("theta_0", "deg", DEGREES),
+    Quantity("theta_1c", "deg", DEGREES),
+    Quantity("theta_1s", "deg", DEGREES),
+    Quantity("beta_0", "deg", DEGREES),
+    Quantity("beta_1c", "deg", DEGREES),
+    Quantity("beta_1s", "deg", DEGREES),
+)
+
+COUNTED = (
+    "residual_evaluations",
+    "jacobians",
+    "segment_evaluations",
+    "relaxation_iterations",
+    "circulation_followed",
+)
+"""What a flight counts."""
+
+
 @dataclass(frozen=True)
 class Outcome:
     """One run: samples (n_instants, n_quantities) in the units shown, their times [s], and counted and clocked cost."""
@@ -90,44 +112,14 @@ class Run(Protocol):
     def quantities(self) -> tuple[Quantity, ...]:
         """What is compared."""
 
-    @property
-    def title(self) -> str:
+    def title(self, case: Case) -> str:
         """What is run, in a few words."""
 
     def check(self, case: Case) -> None:
         """Everything that can be refused before anything starts."""
 
     def outcome(self, case: Case, progress: Progress | Silent) -> Outcome:
-        """Run it."""
-
-
-class Trimming:
-    """A trim, remembered for settings that do not change it."""
-
-    def __init__(self, varied: Parameter, condition: FlightCondition):
-        self.varied, self.condition = varied, condition
-        self._known: list[tuple[tuple[Any, ...], Trim, Outcome]] = []
-
-    def start(self, case: Case, inflow: Any, progress: Progress | Silent) -> tuple[Trim, Outcome]:
-        """Trim of the case with an inflow model, and what it cost when it was made."""
-        inflow = tightened(self.varied, inflow)
-        key = (case.flying.discretisation, inflow, case.n_harmonics, case.control_tolerance)
-        for known, start, cost in self._known:
-            if known == key:
-                return start, cost
-        clock = _Clock()
-        start = trim(
-            case.flying,
-            self.condition,
-            inflow=inflow,
-            progress=progress,
-            n_harmonics=case.n_harmonics,
-            control_tolerance=case.control_tolerance,
-        )
-        values = np.array([[q.factor * value for q, value in zip(TRIM_QUANTITIES, trim_values(start), strict=True)]])
-        cost = Outcome(values, np.zeros(1), *clock.read(), dict(start.counters))
-        self._known.append((key, start, cost))
-        return start, cost
+        """Run it; a failure is raised."""
 
 
 class TrimRun:
@@ -135,37 +127,23 @@ class TrimRun:
 
     quantities = TRIM_QUANTITIES
 
-    def __init__(self, varied: Parameter, condition: FlightCondition):
-        self.trimming = Trimming(varied, condition)
+    def __init__(self, varied: Parameter):
+        self.varied, self.trims = varied, Trims()
 
-    @property
-    def title(self) -> str:
+    def title(self, _: Case) -> str:
         """What is run."""
         return "trim"
 
     def check(self, case: Case) -> None:
         """Compile the aircraft."""
-        build(case, self.trimming.condition)
+        build(case)
 
     def outcome(self, case: Case, progress: Progress | Silent) -> Outcome:
         """Values of the trim."""
-        return self.trimming.start(case, case.inflow, progress)[1]
-
-
-TUNNEL_QUANTITIES = (
-    Quantity("ct", "1"),
-    Quantity("cq", "1"),
-    Quantity("power", "hp", 1.0 / HORSEPOWER),
-    Quantity("lambda_0", "1"),
-    Quantity("lambda_1c", "1"),
-    Quantity("lambda_1s", "1"),
-    Quantity("theta_0", "deg", DEGREES),
-    Quantity("theta_1c", "deg", DEGREES),
-    Quantity("theta_1s", "deg", DEGREES),
-    Quantity("beta_0", "deg", DEGREES),
-    Quantity("beta_1c", "deg", DEGREES),
-    Quantity("beta_1s", "deg", DEGREES),
-)
+        done = finished(run(replace(case, inflow=tightened(self.varied, case.inflow)), progress, self.trims))
+        values = [q.factor * value for q, value in zip(self.quantities, trim_values(done.answer), strict=True)]
+        counted = dict(done.answer.counters)
+        return Outcome(np.array([values]), np.zeros(1), done.seconds, done.cpu_seconds, counted)
 
 
 class TunnelRun:
@@ -173,30 +151,28 @@ class TunnelRun:
 
     quantities = TUNNEL_QUANTITIES
 
-    def __init__(self, varied: Parameter, stand: Mapping[str, Any]):
-        self.varied, self.stand = varied, dict(stand)
+    def __init__(self, varied: Parameter):
+        self.varied = varied
 
-    @property
-    def title(self) -> str:
+    def title(self, case: Case) -> str:
         """What is run."""
-        given = ", ".join(f"{name.replace('_', ' ')} {value}" for name, value in self.stand.items())
+        given = ", ".join(f"{name.replace('_', ' ')} {value}" for name, value in (case.stand or {}).items())
         return f"tunnel, {given}" if given else "tunnel"
 
     def check(self, case: Case) -> None:
         """What the stand refuses."""
-        check_stand(case.aircraft, case.inflow, n_harmonics=case.n_harmonics, **self.stand)
+        check_stand(case.aircraft, case.inflow, n_harmonics=case.n_harmonics, **(case.stand or {}))
 
     def outcome(self, case: Case, progress: Progress | Silent) -> Outcome:
         """Means of the solved rotor; what it says of itself where its wake does not rest."""
-        clock = _Clock()
-        inflow = tightened(self.varied, case.inflow)
-        found = tunnel(case.aircraft, inflow=inflow, n_harmonics=case.n_harmonics, progress=progress, **self.stand)
-        seconds, cpu = clock.read()
-        harmonics = dict(zip(("lambda_0", "lambda_1c", "lambda_1s"), found.inflow_harmonics(), strict=True))
-        values = [q.factor * harmonics.get(q.name, getattr(found, q.name, 0.0)) for q in self.quantities]
+        done = finished(run(replace(case, inflow=tightened(self.varied, case.inflow)), progress))
+        found = done.answer
+        means = {name: float(values) for name, values in found.data.data_vars.items() if values.ndim == 0}
+        means |= dict(zip(("lambda_0", "lambda_1c", "lambda_1s"), found.inflow_harmonics(), strict=True))
+        values = [q.factor * means[q.name] for q in self.quantities]
         counted = {"segment_evaluations": int(found.data.attrs.get("segment_evaluations", 0))}
         notes = () if found.settled else tuple(found.notes)
-        return Outcome(np.array([values]), np.zeros(1), seconds, cpu, counted, notes)
+        return Outcome(np.array([values]), np.zeros(1), done.seconds, done.cpu_seconds, counted, notes)
 
 
 class ModesRun:
@@ -206,20 +182,19 @@ class ModesRun:
         self.n_modes = n_modes
         self.quantities = tuple(Quantity(f"mode_{i}", "1/rev") for i in range(1, n_modes + 1))
 
-    @property
-    def title(self) -> str:
+    def title(self, _: Case) -> str:
         """What is run."""
         return "blade modes"
 
     def check(self, case: Case) -> None:
         """As many modes as the elements can carry."""
-        blade_modes(case.flying, self.n_modes, case.flying.discretisation.n_elements)
+        blade_modes(case.aircraft, self.n_modes, case.aircraft.discretisation.n_elements)
 
     def outcome(self, case: Case, progress: Progress | Silent) -> Outcome:
         """Frequencies per revolution, ascending."""
-        clock = _Clock()
-        found = blade_modes(case.flying, self.n_modes, case.flying.discretisation.n_elements)
-        return Outcome(found.frequencies[None, :], np.zeros(1), *clock.read())
+        elements = case.aircraft.discretisation.n_elements
+        done = finished(attempt(lambda: blade_modes(case.aircraft, self.n_modes, elements)))
+        return Outcome(done.answer.frequencies[None, :], np.zeros(1), done.seconds, done.cpu_seconds)
 
 
 class FlightRun:
@@ -227,79 +202,56 @@ class FlightRun:
 
     quantities = FLIGHT_QUANTITIES
 
-    def __init__(
-        self,
-        varied: Parameter,
-        condition: FlightCondition,
-        maneuver: Maneuver,
-        revolutions: float | None,
-        integrator: str,
-    ):
-        self.trimming = Trimming(varied, condition)
-        self.maneuver, self.revolutions, self.integrator = maneuver, revolutions, integrator
+    def __init__(self, varied: Parameter):
+        self.varied, self.trims = varied, Trims()
 
-    @property
-    def title(self) -> str:
+    def title(self, case: Case) -> str:
         """What is run."""
-        flown = f", {self.revolutions:g} revolutions" if self.revolutions is not None else ""
-        return f"{self.maneuver.name}{flown}"
+        flown = f", {case.revolutions:g} revolutions" if case.revolutions is not None else ""
+        return f"{case.maneuver.name}{flown}"
 
     def check(self, case: Case) -> None:
         """Compile the aircraft; the manoeuvre must fit its sticks."""
-        model = build(case, self.trimming.condition)
-        flown = self.maneuver.for_aircraft(case.flying.stick_travel_in, model.omega)
-        flown.check_span(case.flying.stick_travel_in)
-        flown_steps(model, flown, self.revolutions)
+        model = build(case)
+        travel = case.aircraft.stick_travel_in
+        flown = case.maneuver.for_aircraft(travel, model.omega)
+        flown.check_span(travel)
+        flown_steps(model, flown, case.revolutions)
 
     def outcome(self, case: Case, progress: Progress | Silent) -> Outcome:
         """Histories of the flight."""
-        start, cost = self.trimming.start(case, trim_model(case.inflow), progress)
-        clock = _Clock()
-        flight: Flight = fly(
-            start,
-            self.maneuver,
-            inflow=start.inflow if isinstance(start.inflow, DynamicInflow) else case.inflow,
-            revolutions=self.revolutions,
-            integrator=self.integrator,
-            progress=progress,
-            rtol=case.rtol,
-        )
-        seconds, cpu = clock.read()
-        data = flight.data
+        trimmed_with = tightened(self.varied, trim_model(case.inflow))
+        done = finished(run(replace(case, trim_inflow=trimmed_with), progress, self.trims))
+        data, start = done.data, done.start
         samples = np.column_stack([q.factor * data[q.name].values for q in self.quantities])
-        counted = {
-            name: int(data.attrs[name])
-            for name in (
-                "residual_evaluations",
-                "jacobians",
-                "segment_evaluations",
-                "relaxation_iterations",
-                "circulation_followed",
-            )
-            if name in data.attrs
-        }
-        trimmed = {f"trim_{name}": n for name, n in cost.counters.items()}
+        counted = {name: int(data.attrs[name]) for name in COUNTED if name in data.attrs}
+        trimmed = {f"trim_{name}": n for name, n in start.answer.counters.items()}
         return Outcome(
             samples,
             data["time"].values,
-            seconds + cost.seconds,
-            cpu + cost.cpu_seconds,
+            done.seconds + start.seconds,
+            done.cpu_seconds + start.cpu_seconds,
             {**counted, **trimmed},
         )
 
 
-def build(case: Case, condition: FlightCondition) -> Model:
-    """The compiled model; what the physics core refuses becomes an error of the input."""
-    from ...errors import InputError
+def finished(done: Done) -> Done:
+    """A run that must have ended well."""
+    if done.failure:
+        raise NumericalFailure(done.failure, partial=done.answer)
+    return done
 
-    inflow = case.inflow.resolved(flight_regime(case.flying, condition))
-    inflow.step(case.flying)
+
+def build(case: Case) -> Model:
+    """The compiled model; what the physics core refuses becomes an error of the input."""
+    inflow = case.inflow.resolved(flight_regime(case.aircraft, case.condition))
+    inflow.step(case.aircraft)
     if not isinstance(inflow, DynamicInflow):
-        inflow.core_options(case.flying)
+        inflow.core_options(case.aircraft)
     try:
-        return Model.build(case.flying, condition, inflow)
+        return Model.build(case.aircraft, case.condition, inflow)
     except ValueError as reason:
-        raise InputError(f"{case.flying.path}: {reason}") from None
+        raise InputError(f"{case.aircraft.path}: {reason}") from None
 
 
 def trim_values(start: Trim) -> list[float]:
@@ -322,13 +274,3 @@ def warm() -> None:
 
     for name in ("scipy.optimize", "scipy.signal", "sksundae.ida", "xarray"):
         import_module(name)
-
-
-class _Clock:
-    """Wall clock and time of the processor, all threads."""
-
-    def __init__(self) -> None:
-        self._wall, self._cpu = time.perf_counter(), time.process_time()
-
-    def read(self) -> tuple[float, float]:
-        return time.perf_counter() - self._wall, time.process_time() - self._cpu
