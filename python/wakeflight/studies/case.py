@@ -56,7 +56,7 @@ class Done:
     """A run that has ended: `answer` is a Trim, a Flight or a Tunnel, as far as it came, None where there is nothing.
 
     seconds, cpu_seconds: wall clock, and time of the processor over all threads. failure: why it stopped, empty if it did not;
-    foreseen: whether the program said so itself. start: the trim a flight began with, whose cost is its own.
+    foreseen: whether it was one of numerics, which says where and why. start: the trim a flight began with, its cost apart.
     """
 
     answer: Any
@@ -81,16 +81,16 @@ def attempt(action: Callable[[], Any], keep: type[Exception] = NumericalFailure)
     except NumericalFailure as reason:
         answer, failure = reason.partial, str(reason)
     except keep as reason:
-        failure, foreseen = told(reason)
+        failure, foreseen = told(reason), False
     return Done(answer, time.perf_counter() - wall, time.process_time() - cpu, failure, foreseen)
 
 
-def told(reason: Exception) -> tuple[str, bool]:
-    """An error in words, and whether it is one of the program's own; of others also where it came from."""
+def told(reason: Exception) -> str:
+    """An error in words; of one that is not the program's own also where it came from."""
     if isinstance(reason, WakeflightError):
-        return str(reason), True
+        return str(reason)
     last = traceback.extract_tb(reason.__traceback__)[-1]
-    return f"{type(reason).__name__}: {reason} ({Path(last.filename).name}, line {last.lineno})", False
+    return f"{type(reason).__name__}: {reason} ({Path(last.filename).name}, line {last.lineno})"
 
 
 class Trims:

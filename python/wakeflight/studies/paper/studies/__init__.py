@@ -12,7 +12,7 @@ from .finding import Finding
 if TYPE_CHECKING:
     import xarray as xr
 
-    from ..cases import Case
+    from ..cases import Planned
 
 STUDIES = {
     study.__name__.rsplit(".", 1)[1]: study for study in (holding, coupling, off_axis, loading, strength, sensitivity)
@@ -22,7 +22,7 @@ STUDIES = {
 __all__ = ["STUDIES", "Finding", "cases", "findings"]
 
 
-def cases() -> list[Case]:
+def cases() -> list[Planned]:
     """Flights of every study."""
     return [case for study in STUDIES.values() for case in study.cases()]
 

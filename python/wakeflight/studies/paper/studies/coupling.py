@@ -11,7 +11,7 @@ import numpy as np
 from ....inflow import TimeMarchingWake
 from ....plotting import style
 from ....plotting.style import styled
-from ..cases import Case
+from ..cases import Planned
 from ..quantities import DEG, smoothed
 from .finding import Finding
 
@@ -31,10 +31,10 @@ def name(step: float, way: str) -> str:
     return f"coupling/{step:g}-deg-{way}"
 
 
-def cases() -> list[Case]:
+def cases() -> list[Planned]:
     """Every step held and extrapolated."""
     return [
-        Case(
+        Planned(
             name(step, way),
             "arrested-descent",
             TimeMarchingWake(azimuth_step=f"{step:g} deg", extrapolate=extrapolate),

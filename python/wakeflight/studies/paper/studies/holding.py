@@ -11,7 +11,7 @@ import numpy as np
 from ....inflow import RelaxationWake, TimeMarchingWake
 from ....plotting import style
 from ....plotting.style import styled
-from ..cases import Case
+from ..cases import Planned
 from ..quantities import DEG, excursion, extreme, period, rms_difference, smoothed
 from ..statements.conclusions import lag
 from .finding import Finding
@@ -31,11 +31,11 @@ FLIGHTS = {
 }
 
 
-def cases() -> list[Case]:
+def cases() -> list[Planned]:
     """The two mixed ways."""
     return [
-        Case("held/time-marching", D, TimeMarchingWake(update_interval="360 deg"), 20),
-        Case("held/relaxation", D, RelaxationWake(update_interval="90 deg"), 80),
+        Planned("held/time-marching", D, TimeMarchingWake(update_interval="360 deg"), 20),
+        Planned("held/relaxation", D, RelaxationWake(update_interval="90 deg"), 80),
     ]
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from ....plotting import histories
 from ....plotting.histories import DEG, Panel
 from ....plotting.style import styled
-from ..cases import MODELS, Case
+from ..cases import MODELS, Planned
 from ..statements import descent
 from .finding import Finding, verdict_changes
 
@@ -28,10 +28,10 @@ PANELS = (
 )
 
 
-def cases() -> list[Case]:
+def cases() -> list[Planned]:
     """The arrested descent with the three models."""
     return [
-        Case(f"{CONDITION}/{name}", "arrested-descent", model, 20, condition=CONDITION)
+        Planned(f"{CONDITION}/{name}", "arrested-descent", model, 20, condition=CONDITION)
         for name, model in MODELS.items()
     ]
 

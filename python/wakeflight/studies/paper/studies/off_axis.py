@@ -12,7 +12,7 @@ from ....inflow import DynamicInflow, TimeMarchingWake
 from ....maneuvers import Maneuver
 from ....plotting import style
 from ....plotting.style import styled
-from ..cases import Case
+from ..cases import Planned
 from ..quantities import DEG
 from .finding import Finding
 
@@ -56,14 +56,14 @@ def name(condition: str, way: str, maneuver: str) -> str:
     return f"off-axis/{condition}-{way}-{maneuver}".replace(" ", "-")
 
 
-def cases() -> list[Case]:
+def cases() -> list[Planned]:
     """A pulse and no pulse, each way in each condition."""
     made = []
     for condition, (given, options) in CONDITIONS.items():
         for way, (more, modes) in WAYS.items():
             model = DynamicInflow() if more is None else TimeMarchingWake(**{**options, **more})
             for maneuver in (PULSE, HANDS_OFF):
-                made.append(Case(name(condition, way, maneuver.name), maneuver, model, 10, None, given, modes))
+                made.append(Planned(name(condition, way, maneuver.name), maneuver, model, 10, None, given, modes))
     return made
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from ....inflow import RelaxationWake, TimeMarchingWake
 from ....plotting import style
 from ....plotting.style import styled
-from ..cases import Case
+from ..cases import Planned
 from ..quantities import change_from_trim, extreme, sector_mean
 from ..statements import descent
 from ..statements.conclusions import lag
@@ -34,10 +34,10 @@ VARIANTS: dict[str, dict[str, Any]] = {
 }
 
 
-def cases() -> list[Case]:
+def cases() -> list[Planned]:
     """Both wakes with each variant."""
     return [
-        Case(
+        Planned(
             f"wake/{name.replace(' ', '-').replace('°', '-deg')}/{model.name}", "arrested-descent", model(**options), 25
         )
         for name, options in VARIANTS.items()

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from ....inflow import RelaxationWake, TimeMarchingWake
 from ....plotting import style
 from ....plotting.style import styled
-from ..cases import MANEUVERS, MODELS, Case
+from ..cases import MANEUVERS, MODELS, Planned
 from ..drawings import LOOKS
 from ..quantities import period, smoothed
 from ..statements import descent, roll
@@ -24,10 +24,10 @@ if TYPE_CHECKING:
 WAKES = {"relaxation": RelaxationWake(tip_strength="max"), "time-marching": TimeMarchingWake(tip_strength="max")}
 
 
-def cases() -> list[Case]:
+def cases() -> list[Planned]:
     """Both wakes in both manoeuvres; dynamic inflow has no tip vortex."""
     return [
-        Case(f"max/{maneuver}/{name}", maneuver, model, cost)
+        Planned(f"max/{maneuver}/{name}", maneuver, model, cost)
         for maneuver, cost in zip(MANEUVERS, (30, 80), strict=True)
         for name, model in WAKES.items()
     ]
