@@ -16,6 +16,8 @@ COUNTED = {
     "convergence_change": [0.1 ** (k + 1) for k in range(10)],
     "segment_evaluations_convergence": 60_000_000,
     "configuration.inflow.convergence_revolutions": 10,
+    "condition.altitude": 1600.2,
+    "condition.gross_mass": 7257.5,
 }
 
 

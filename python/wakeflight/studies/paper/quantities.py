@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...plotting.disk import TURN, difference, revolution_map
+from ...results.disk import area_weights, element_widths
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -76,11 +77,9 @@ def change_from_trim(run: xr.Dataset, name: str, revolution: float) -> xr.DataAr
 
 
 def weights(field: xr.DataArray) -> np.ndarray:
-    """Shares of area of the points of a disk map (psi, station)."""
+    """Shares of area of the points of a disk map (psi, station); see `results.disk`."""
     station = field["station"].values
-    middle = (station[1:] + station[:-1]) / 2
-    edges = np.concatenate([[2 * station[0] - middle[0]], middle, [min(2 * station[-1] - middle[-1], 1.0)]])
-    return np.broadcast_to(np.diff(edges) * station, field.shape)
+    return np.broadcast_to(area_weights(station, element_widths(station)), field.shape)
 
 
 def in_sector(

@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     Runs = Mapping[str, xr.Dataset]
 
 CONDITION = "ct-sigma-0071"
+PRINTED = 0.071
+"""C_T/σ in the paper."""
 PANELS = (
     Panel("force_z", "Z [kN], down +", 1e-3),
     Panel("moment_y", "M [kN m], nose up +", 1e-3),
@@ -41,12 +43,14 @@ def finding(runs: Runs) -> Finding:
     base = descent.statements({m: runs[f"arrested-descent/{m}"] for m in MODELS})
     flights = {m: runs[f"{CONDITION}/{m}"] for m in MODELS}
     changed = verdict_changes(base, descent.statements(flights))
+    attrs = {"as flown": runs["arrested-descent/relaxation"].attrs, "as printed": flights["relaxation"].attrs}
+    feet = [f"{float(each['condition.altitude']) / 0.3048:.0f} ft" for each in attrs.values()]
     return Finding(
         "loading",
         "The printed blade loading",
-        "The arrested descent with 16 000 lb at 930 ft, where C_T/σ is 0.071 as printed, instead of at 5250 ft.",
+        f"The arrested descent at {feet[1]} instead of {feet[0]}, the weight the same: C_T/σ is printed as {PRINTED:g}.",
         figure(flights),
-        ("statement", "5250 ft", "930 ft"),
+        ("statement", *feet),
         [list(row) for row in changed] or [["none", "–", "–"]],
         f"{len(changed)} of {len(base)} verdicts of Figures 3 to 11 depend on the reading; C_T/σ at trim "
         f"is {_loading(flights):.4f}.",

@@ -63,9 +63,9 @@ def finding(runs: Runs) -> Finding:
         figure(runs),
         ("statement", "equivalent", "max"),
         [list(row) for row in changed] or [["none", "–", "–"]],
-        f"{len(changed)} of {len(judged(runs))} verdicts depend on the rule. Mean inflow at trim rises from "
+        f"{len(changed)} of {len(judged(runs))} verdicts depend on the rule. Mean inflow at trim goes from "
         f"{float(trim[''].inflow_mean[0]):.4f} to {float(trim['max/'].inflow_mean[0]):.4f}, power by "
-        f"{100 * (float(trim['max/'].attrs['power']) / float(trim[''].attrs['power']) - 1):.0f} %; the "
+        f"{100 * (float(trim['max/'].attrs['power']) / float(trim[''].attrs['power']) - 1):+.0f} %; the "
         f"relaxation loop does not "
         f"converge within its cap in {missed_text}.",
     )
