@@ -137,9 +137,10 @@ def other(runs, seed):
             bent = taken["wake"].values.copy()
             n, ages = bent.shape[0], np.arange(bent.shape[2]) / bent.shape[2]
             lift = random.normal(0.0, 1.0, n)
-            if seed == 0 and name == "arrested-descent/relaxation":
-                # ahead after each update, behind before it
-                lift = np.where(taken["snapshot_revolution"].values % 1.0 == 0.0, 9.0, -9.0)
+            if seed == 0 and name.startswith("arrested-descent"):
+                # relaxation ahead after each update, behind before it
+                taken["snapshot_revolution"] = ("snapshot", [4.75, 5.0, 8.0, 10.0])
+                lift = np.array([-9.0, 9.0, 9.0, 9.0]) * name.endswith("/relaxation")
             bent[..., 2] += lift[:, None, None] * ages**2
             edge = np.abs(bent[..., 1]) > 0.7 * synthetic.RADIUS
             bent[..., 0] += np.where(edge, *random.uniform(0.0, 2.0, 2)) * (ages if seed % 2 else 1.0)
