@@ -8,26 +8,26 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..modes import mode_labels
-from ..monitors import variables
+from ..monitors import Monitor, variables
 from ..results import assemble_tunnel
 from .solve import Revolution, by_azimuth
+from .solved import Solved
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from .results import Tunnel
 
 SECTION_FIELDS = ("cl", "cd", "cm", "alpha", "mach")
 
 
-def dataset(stand: Tunnel) -> xr.Dataset:
+def dataset(stand: Solved, monitors: tuple[Monitor, ...], attributes: dict[str, Any]) -> xr.Dataset:
     """Everything the stand found, every variable with its unit and meaning."""
     arrays = {**_scalars(stand), **_maps(stand), **_motion(stand), **_wake_arrays(stand), **_histories(stand)}
-    arrays |= variables(stand.monitors)
-    return assemble_tunnel({name: np.asarray(value) for name, value in arrays.items()}, attributes(stand))
+    arrays |= variables(monitors)
+    return assemble_tunnel({name: np.asarray(value) for name, value in arrays.items()}, attributes)
 
 
-def _path(stand: Tunnel) -> tuple[np.ndarray, np.ndarray] | None:
+def _path(stand: Solved) -> tuple[np.ndarray, np.ndarray] | None:
     """Mean tip vortex by azimuth (n, n_ages, 3) [m] and the RMS distance from it (n, n_ages)."""
     s = stand.solution
     if s.wake is None:
@@ -42,7 +42,7 @@ def _path(stand: Tunnel) -> tuple[np.ndarray, np.ndarray] | None:
     return mean, np.sqrt(by_azimuth(rows, squared, len(stand.azimuth)))
 
 
-def _wake_arrays(stand: Tunnel) -> dict[str, np.ndarray]:
+def _wake_arrays(stand: Solved) -> dict[str, np.ndarray]:
     found = _path(stand)
     if found is None:
         return {}
@@ -66,7 +66,7 @@ def _wake_arrays(stand: Tunnel) -> dict[str, np.ndarray]:
     }
 
 
-def _scalars(stand: Tunnel) -> dict[str, Any]:
+def _scalars(stand: Solved) -> dict[str, Any]:
     m, c = stand.model, stand.model.condition
     names = ("ct", "cq", "cp", "figure_of_merit", "thrust", "torque", "power", "beta_0", "beta_1c", "beta_1s")
     names += ("theta_0", "theta_1c", "theta_1s", "hub_force", "hub_moment", "aero_force", "aero_moment")
@@ -89,13 +89,13 @@ def _scalars(stand: Tunnel) -> dict[str, Any]:
     }
 
 
-def scatter(stand: Tunnel) -> tuple[float, float]:
+def scatter(stand: Solved) -> tuple[float, float]:
     """Standard deviations of C_T and C_Q over the revolutions averaged; 0 where there are none."""
     ct, cq = _per_revolution(stand, stand.turns_kept)
     return (float(np.std(ct)), float(np.std(cq))) if ct else (0.0, 0.0)
 
 
-def _per_revolution(stand: Tunnel, revolutions: list[Revolution]) -> tuple[list[float], list[float]]:
+def _per_revolution(stand: Solved, revolutions: list[Revolution]) -> tuple[list[float], list[float]]:
     """C_T and C_Q of each revolution."""
     thrust = [turn.passages["aero_force"][..., 2].sum(axis=1).mean() / stand.thrust_scale for turn in revolutions]
     torque = [
@@ -105,7 +105,7 @@ def _per_revolution(stand: Tunnel, revolutions: list[Revolution]) -> tuple[list[
     return thrust, torque
 
 
-def _histories(stand: Tunnel) -> dict[str, Any]:
+def _histories(stand: Solved) -> dict[str, Any]:
     turns = stand.solution.revolutions
     if not turns:
         return {}
@@ -113,7 +113,7 @@ def _histories(stand: Tunnel) -> dict[str, Any]:
     return {"ct_history": ct, "cq_history": cq, "theta_0_history": [turn.x[0] for turn in turns]}
 
 
-def _maps(stand: Tunnel) -> dict[str, Any]:
+def _maps(stand: Solved) -> dict[str, Any]:
     fields = {name: stand.mean_by_azimuth(name) for name in (*SECTION_FIELDS, "circulation", "inflow")}
     cn = fields["cl"] * np.cos(fields["alpha"]) + fields["cd"] * np.sin(fields["alpha"])
     m2 = fields["mach"] ** 2
@@ -134,7 +134,7 @@ def _maps(stand: Tunnel) -> dict[str, Any]:
     }
 
 
-def _motion(stand: Tunnel) -> dict[str, Any]:
+def _motion(stand: Solved) -> dict[str, Any]:
     core, rotor, psi = stand.model.core, stand.model.rotor, stand.azimuth
     q, _ = core.trim_motion(stand.solution.problem, stand.x, len(psi))
     flap, lead = core.equivalent_angles(q)
@@ -146,8 +146,8 @@ def _motion(stand: Tunnel) -> dict[str, Any]:
     return {"theta": theta, "flap": flap, "lead": lead, **tips, **modal}
 
 
-def attributes(stand: Tunnel) -> dict[str, Any]:
-    """Attributes of the Dataset: rotor, condition, inflow, and what was counted."""
+def attributes(stand: Solved, said: dict[str, str]) -> dict[str, Any]:
+    """Attributes of the Dataset: rotor, condition, inflow, what was counted, and what is `said` of it."""
     m, s, c = stand.model, stand.solution, stand.model.condition
     wake = s.march or s.wake
     evaluations = 0
@@ -172,10 +172,7 @@ def attributes(stand: Tunnel) -> dict[str, Any]:
         "revolutions": len(s.revolutions),
         "averaged": stand.averaged,
         "settled": int(stand.settled),
-        "assumed": "; ".join(stand.assumed),
-        "notes": "; ".join(stand.notes),
-        "warnings": "\n".join(stand.warnings),
-        "failure": "; ".join(stand.failures),
+        **said,
         "residual": stand.residual,
         "seconds_total": stand.seconds,
         "segment_evaluations": evaluations,

@@ -3,20 +3,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
 
 import numpy as np
 
-from ..monitors import lines
 from ..trim_results import HORSEPOWER
 from .dataset import scatter
-
-if TYPE_CHECKING:
-    from .results import Tunnel
+from .solved import Solved
 
 
-def table(stand: Tunnel) -> str:
-    """The result as a table to print."""
+def table(stand: Solved, assumed: Sequence[str], said: Sequence[tuple[str, str]]) -> str:
+    """The result as a table to print; `said`: what monitors, notes and warnings say."""
     m, deg = stand.model, np.degrees
     c, lam = m.condition, stand.inflow_harmonics()
     scattered = f" (+- {scatter(stand)[0]:.6f} over {stand.averaged} revolutions)" if stand.averaged > 1 else ""
@@ -33,7 +30,7 @@ def table(stand: Tunnel) -> str:
             "inflow, blade model",
             f"{m.inflow.name}, {m.blade_model}",
         ),
-        *(("assumed", text) for text in stand.assumed),
+        *(("assumed", text) for text in assumed),
         ("theta_0, 1c, 1s", f"{deg(stand.theta_0):.3f}, {deg(stand.theta_1c):.3f}, {deg(stand.theta_1s):.3f} deg"),
         ("C_T, C_T/sigma", f"{stand.ct:.6f}, {stand.ct / sigma:.4f}{scattered}"),
         ("C_Q, figure of merit", f"{stand.cq:.7f}, {stand.figure_of_merit:.4f}"),
@@ -47,9 +44,7 @@ def table(stand: Tunnel) -> str:
         ("coning, beta_1c, 1s", f"{deg(stand.beta_0):.3f}, {deg(stand.beta_1c):.3f}, {deg(stand.beta_1s):.3f} deg"),
         ("lambda_0, 1c, 1s", ", ".join(f"{v:.5f}" for v in lam)),
         ("residual", f"{stand.residual:.1e}"),
-        *lines(stand.monitors),
-        *(("note", note) for note in stand.solution.notes),
-        *(("warning", text) for text in stand.warnings),
+        *said,
     ]
     width = max(len(name) for name, _ in rows)
     return "\n".join(f"{name:<{width}}  {value}" for name, value in rows)

@@ -8,19 +8,19 @@ from typing import TYPE_CHECKING
 from .estimate import NOTHING, Estimate
 
 if TYPE_CHECKING:
-    from .study import Study
+    from .findings import Findings
 
 Block = tuple[str, list[list[str]]]
 """A heading and its rows, the first row naming the columns."""
 
 
-def blocks(study: Study) -> list[Block]:
+def blocks(study: Findings) -> list[Block]:
     """Tables of the study: values (of a trim), errors with orders, cost."""
     found = [_errors(study), _cost(study)]
     return found if study.is_history else [_values(study), *found]
 
 
-def table(study: Study) -> str:
+def table(study: Findings) -> str:
     """The study for a terminal."""
     parts = [study.title, *notes(study)]
     for heading, rows in blocks(study):
@@ -37,7 +37,7 @@ def table(study: Study) -> str:
     return "\n".join(parts)
 
 
-def markdown(study: Study) -> str:
+def markdown(study: Findings) -> str:
     """The study as a section of a page."""
     parts = [f"## {study.title}", "\n".join(notes(study))]
     for heading, rows in blocks(study):
@@ -47,7 +47,7 @@ def markdown(study: Study) -> str:
     return "\n\n".join(part for part in parts if part)
 
 
-def notes(study: Study) -> list[str]:
+def notes(study: Findings) -> list[str]:
     """What a reader must know before the numbers."""
     found = []
     if study.parameter.physical:
@@ -60,7 +60,7 @@ def notes(study: Study) -> list[str]:
     return [*found, *(f"failed: {text}" for text in study.failures)]
 
 
-def _values(study: Study) -> Block:
+def _values(study: Findings) -> Block:
     rows = [["quantity", "unit", *study.labels, "limit"]]
     for i, (quantity, found) in enumerate(zip(study.quantities, study.estimates, strict=True)):
         values = [_plain(value, 6) for value in study.samples[:, 0, i]]
@@ -70,7 +70,7 @@ def _values(study: Study) -> Block:
     return "values", rows
 
 
-def _errors(study: Study) -> Block:
+def _errors(study: Findings) -> Block:
     """Errors: of a trim in its unit, of a history root mean square (largest) in per cent of its excursion."""
     same = len({found.note for found in study.estimates}) == 1
     rows = [["quantity", "of" if study.is_history else "unit", *study.labels, "order", *([] if same else ["basis"])]]
@@ -98,7 +98,7 @@ def basis(found: Estimate) -> str:
     return "limit, extrapolated" if found.order is not None else f"finest; {found.note}"
 
 
-def _cost(study: Study) -> Block:
+def _cost(study: Findings) -> Block:
     rows = [["cost", "unit", *study.labels]]
     rows.append(["wall clock", "s", *(f"{o.seconds:.2f}" for o in study.outcomes)])
     rows.append(["processor", "s", *(f"{o.cpu_seconds:.2f}" for o in study.outcomes)])
