@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """Maps over the rotor disk: binning of one revolution, and the drawing with the nose to the left.
 
 x_h (aft) is drawn to the right and y_h (right) upward: nose left, azimuth counter-clockwise from the

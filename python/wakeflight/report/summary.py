@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """What a reader wants to know of a run first, as rows of text: flight, trim, cost, counters, warnings."""
 
 from __future__ import annotations

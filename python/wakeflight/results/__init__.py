@@ -6,7 +6,7 @@ from __future__ import annotations
 from .attributes import flat_attributes
 from .dataset import assemble, assemble_transient, assemble_trim, assemble_tunnel
 from .errors import ResultsError
-from .files import load, save
+from .files import by_name, load, save
 
 __all__ = [
     "ResultsError",
@@ -14,6 +14,7 @@ __all__ = [
     "assemble_transient",
     "assemble_trim",
     "assemble_tunnel",
+    "by_name",
     "flat_attributes",
     "load",
     "save",

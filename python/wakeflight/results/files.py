@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -39,3 +40,12 @@ def load(path: str | Path) -> xr.Dataset:
         return xr.load_dataset(path, engine="h5netcdf")
     except OSError as error:
         raise ResultsError(f"{path}: not a NetCDF-4 file ({error})") from error
+
+
+def by_name(runs: xr.Dataset | Mapping[str, xr.Dataset], single: str | None = None) -> dict[str, xr.Dataset]:
+    """Runs by name; a single one (a Dataset is a mapping too) goes by the name `single`, or by its inflow model."""
+    import xarray as xr
+
+    if isinstance(runs, xr.Dataset):
+        return {str(runs.attrs.get("inflow_model", "run")) if single is None else single: runs}
+    return dict(runs)

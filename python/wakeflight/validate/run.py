@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """Running cases: what each found, what it cost, and what stopped it."""
 
 from __future__ import annotations
