@@ -1,4 +1,4 @@
-"""What can be counted of the house: its files, who imports whom, circles, kinds told apart; for the tests and for the page."""
+"""What can be counted of the house: who imports whom, circles, kinds told apart, sizes; for the tests and for the page."""
 
 import ast
 import re
@@ -31,7 +31,9 @@ class House:
     @cached_property
     def sources(self):
         folders = ("crates", "python", "tests", "benchmarks", "examples", "validation", "docs")
-        found = (path for folder in folders for path in (self.root / folder).rglob("*") if path.suffix in (".py", ".rs"))
+        found = (
+            path for folder in folders for path in (self.root / folder).rglob("*") if path.suffix in (".py", ".rs")
+        )
         return sorted(path for path in found if "__pycache__" not in path.parts)
 
     # --- imports --------------------------------------------------------------------------------------------
@@ -67,16 +69,23 @@ class House:
         return {each for each in found if each in self.modules} - {name}
 
     @cached_property
-    def circles(self):
-        """Groups of modules that import one another in a circle, largest first, and the pairs that do so directly."""
+    def python_circles(self):
+        """Groups of Python modules that import one another in a circle."""
         return [sorted(group) for group in strongly_connected(self.imports) if len(group) > 1]
 
     @cached_property
-    def pairs(self):
-        """Pairs of modules each of which imports the other."""
-        return sorted(
-            (a, b) for a, found in self.imports.items() for b in found if a < b and a in self.imports[b]
-        )
+    def rust_circles(self):
+        """Groups of Rust modules that use one another in a circle, tests within the files left out."""
+        return [sorted(group) for group in strongly_connected(self.rust_uses) if len(group) > 1]
+
+    @cached_property
+    def rust_uses(self):
+        """Modules that each Rust module names."""
+        modules = {}
+        for path in self.rust_files:
+            parts = list(path.relative_to(self.rust).with_suffix("").parts)
+            modules["::".join(parts[:-1] if parts[-1] in ("mod", "lib") else parts)] = path
+        return {name: used_in_rust(name, path.read_text(), set(modules)) - {name} for name, path in modules.items()}
 
     # --- kinds ----------------------------------------------------------------------------------------------
 
@@ -93,22 +102,130 @@ class House:
 
     @cached_property
     def kinds_told_apart(self):
-        """Places that ask what kind of thing an object is: (file, line, text)."""
+        """Places that ask what kind of thing an object is: (file, line, text).
+
+        Left out: the readers of files and quantities, where what was typed may be of any kind.
+        """
         found = []
         for path in self.python_files:
-            text = path.read_text()
-            for node in ast.walk(ast.parse(text)):
-                if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and self._tells(node):
+            if "aircraft" in path.relative_to(self.python).parts or path.stem == "units":
+                continue
+            tree = ast.parse(path.read_text())
+            foreign = {
+                alias.asname or alias.name
+                for node in ast.walk(tree)
+                if isinstance(node, ast.ImportFrom) and not node.level
+                for alias in node.names
+            }
+            for node in ast.walk(tree):
+                if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and self._tells(node, foreign):
                     found.append((self.name(path), node.lineno, ast.unparse(node)))
         return found
 
-    def _tells(self, node):
+    def _tells(self, node, foreign):
         function, arguments = node.func.id, node.args
         if function == "isinstance":
             named = {each.id for each in ast.walk(arguments[1]) if isinstance(each, ast.Name)}
-            return bool(named & self.classes)
+            return bool(named & self.classes - foreign)
         literal = len(arguments) > 1 and isinstance(arguments[1], ast.Constant)
         return function == "hasattr" or (function == "getattr" and (literal or len(arguments) > 2))
+
+    # --- sizes ----------------------------------------------------------------------------------------------
+
+    @cached_property
+    def long_files(self):
+        """Source files of over 500 lines, by name."""
+        return {self.name(path): n for path in self.sources if (n := lines_of(path)) > 500}
+
+    @cached_property
+    def lines_of_bindings(self):
+        """Lines of the bindings and of the stub that tells their types."""
+        return sum(map(lines_of, [*self.bindings.rglob("*.rs"), self.python / "_core.pyi"]))
+
+    @cached_property
+    def lines_of_verbs(self):
+        """Lines of stand, trim, exchange and flight in Python: what they do, not what they report."""
+        left_out = ("results", "monitors", "dataset", "table", "solved")
+        patterns = (
+            "tunnel/*.py",
+            "trim*.py",
+            "trim/*.py",
+            "wake_trim.py",
+            "exchange.py",
+            "fly.py",
+            "flight.py",
+            "simulation.py",
+        )
+        patterns += ("simulation/*.py",)
+        files = {path for pattern in patterns for path in self.python.glob(pattern)}
+        return sum(lines_of(path) for path in files if path.stem not in left_out)
+
+    @cached_property
+    def many_arguments(self):
+        """Functions of the core and its bindings that are allowed many arguments: (file, number)."""
+        found = [(path, path.read_text().count("too_many_arguments")) for path in self.sources if path.suffix == ".rs"]
+        return [(self.name(path), n) for path, n in found if n]
+
+    @cached_property
+    def arithmetic_in_bindings(self):
+        """Lines of the bindings that calculate with floating-point numbers: (file, text)."""
+        calculates = re.compile(r"\b(TAU|PI)\b|\bas f64\b|\.(sin|cos|sqrt|powi|powf|hypot|atan2|abs|exp|ln)\(")
+        found = []
+        for path in sorted(self.bindings.rglob("*.rs")):
+            code = path.read_text().split("#[cfg(test)]")[0].splitlines()
+            found += [
+                (path.name, line.strip())
+                for line in code
+                if calculates.search(line.split("//")[0]) and "use " not in line
+            ]
+        return found
+
+
+def lines_of(path):
+    return path.read_text().count("\n")
+
+
+def used_in_rust(name, text, modules):
+    """Modules that the Rust module `name` uses or names in full."""
+    code = re.sub(r"//.*", "", text.split("#[cfg(test)]")[0])
+    paths = [path for tree in re.findall(r"\buse\s+([^;]+);", code) for path in expanded(tree)]
+    paths += re.findall(r"\b(?:crate|super)(?:::\w+)+", re.sub(r"\buse\s+[^;]+;", "", code))
+    found, here = set(), name.split("::") if name else []
+    for path in paths:
+        parts = path.split("::")
+        if parts[0] == "crate":
+            base = []
+        elif parts[0] in ("self", "super"):
+            base = list(here)
+        else:
+            continue
+        while parts and parts[0] in ("crate", "self", "super"):
+            base = base[:-1] if parts.pop(0) == "super" else base
+        full = base + parts
+        while full and "::".join(full) not in modules:
+            full.pop()
+        if full:
+            found.add("::".join(full))
+    return found
+
+
+def expanded(tree, prefix=""):
+    """Paths of a `use` tree: `a::{b, c::d}` is `a::b` and `a::c::d`."""
+    depth, parts, current = 0, [], ""
+    for letter in tree.strip():
+        depth += (letter == "{") - (letter == "}")
+        if letter == "," and depth == 0:
+            parts.append(current)
+            current = ""
+        else:
+            current += letter
+    for part in filter(None, (each.strip() for each in [*parts, current])):
+        group = re.match(r"^(.*?)(?:::)?\{(.*)\}$", part, re.DOTALL)
+        if group:
+            inner = "::".join(filter(None, (prefix, group.group(1).strip())))
+            yield from expanded(group.group(2), inner)
+        else:
+            yield "::".join(filter(None, (prefix, part.split(" as ")[0].strip())))
 
 
 def strongly_connected(graph):
