@@ -10,7 +10,7 @@ from __future__ import annotations
 import inspect
 import json
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields, replace
 from typing import Any, ClassVar, Protocol, Self, TypeVar
 
@@ -270,13 +270,17 @@ MODELS: dict[str, type[InflowModel]] = {
 """Models by the name the command line uses; the first is the default."""
 
 
-def inflow_model(inflow: str | InflowModel = "time-marching") -> InflowModel:
-    """Model from its name, or the configured model itself."""
-    if isinstance(inflow, tuple(MODELS.values())):
+STAND_MODELS: dict[str, type[Inflow]] = {**MODELS, AnnularInflow.name: AnnularInflow}
+"""Models of a rotor on a stand."""
+
+
+def inflow_model(inflow: Any = "time-marching", known: Mapping[str, type[Inflow]] = MODELS) -> Any:
+    """Model from its name, or the configured model itself; one of those `known`."""
+    if isinstance(inflow, tuple(known.values())):
         return inflow
-    if isinstance(inflow, str) and inflow in MODELS:
-        return MODELS[inflow]()
-    raise InputError.of("inflow", inflow, f"allowed: {', '.join(MODELS)}, or a configured model")
+    if isinstance(inflow, str) and inflow in known:
+        return known[inflow]()
+    raise InputError.of("inflow", inflow, f"allowed: {', '.join(known)}, or a configured model")
 
 
 def trim_model(model: InflowModel) -> InflowModel:

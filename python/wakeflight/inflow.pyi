@@ -1,4 +1,5 @@
 # made by tests/quality/generated_options.py: do not edit
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar, Literal, Protocol, Self
 
@@ -145,7 +146,9 @@ InflowModel = TimeMarchingWake | RelaxationWake | DynamicInflow
 
 MODELS: dict[str, type[InflowModel]]
 
-def inflow_model(inflow: str | InflowModel='time-marching') -> InflowModel: ...
+STAND_MODELS: dict[str, type[Inflow]]
+
+def inflow_model(inflow: Any='time-marching', known: Mapping[str, type[Inflow]]=MODELS) -> Any: ...
 
 def trim_model(model: InflowModel) -> InflowModel: ...
 

@@ -21,11 +21,18 @@ from .units import quantity
 
 
 class Radians(float):
-    """An angle that was checked and is in radians."""
+    """An angle in radians that is a quantity by itself: what a model holds, and takes when it is copied with other options."""
 
-    def __reduce__(self) -> tuple[Any, ...]:
-        """Pickled as a number of its own kind."""
-        return (Radians, (float(self),))
+    @property
+    def magnitude(self) -> float:
+        """The number."""
+        return float(self)
+
+    def to(self, unit: str) -> Radians:
+        """The angle itself; it has no other unit."""
+        if unit != "rad":
+            raise ValueError(f"an angle in radians is no quantity of {unit}")
+        return self
 
 
 @dataclass(frozen=True)
@@ -77,9 +84,7 @@ class Option:
             if not isinstance(value, bool):
                 raise InputError.of(self.name, value, "must be True or False")
             return value
-        # a number is what an instance copied by dataclasses.replace holds: radians already
-        angle = self.is_angle and not isinstance(value, Radians)
-        number = Radians(quantity(value, "rad", self.name)) if angle else value
+        number = Radians(quantity(value, "rad", self.name)) if self.is_angle else value
         kind = int if self.kind == "whole" else (int, float)
         if isinstance(number, bool) or not isinstance(number, kind) or not self._allows(number):
             raise InputError.of(self.name, value, f"must {self._allowed}")

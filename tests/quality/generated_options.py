@@ -74,6 +74,7 @@ def stub():
     """The stub of `inflow.py`: its own definitions, with the options as fields and keyword arguments."""
     tree = ast.parse(SOURCE.read_text())
     lines = ["# made by tests/quality/generated_options.py: do not edit", "from dataclasses import dataclass"]
+    lines = [lines[0], "from collections.abc import Mapping", lines[1]]
     lines += ["from typing import Any, ClassVar, Literal, Protocol, Self"]
     kinds = {model.__name__: model for model in MODELS}
     for node in tree.body:

@@ -11,8 +11,7 @@ import numpy as np
 
 from .. import _core
 from ..aircraft import Rotor
-from ..errors import InputError
-from ..inflow import MODELS, AnnularInflow, InflowModel, inflow_model
+from ..inflow import STAND_MODELS, AnnularInflow, InflowModel, inflow_model
 from ..model import CompiledRotor
 from ..trim_equations import resample
 from ..units import STANDARD_GRAVITY
@@ -24,12 +23,7 @@ StandInflow = InflowModel | AnnularInflow
 
 def stand_inflow(inflow: str | StandInflow) -> StandInflow:
     """Model from its name, or the configured model itself."""
-    if inflow == AnnularInflow.name or isinstance(inflow, AnnularInflow):
-        return inflow if isinstance(inflow, AnnularInflow) else AnnularInflow()
-    if isinstance(inflow, str) and inflow not in MODELS:
-        allowed = ", ".join([*MODELS, AnnularInflow.name])
-        raise InputError.of("inflow", inflow, f"allowed: {allowed}, or a configured model")
-    return inflow_model(inflow)
+    return inflow_model(inflow, STAND_MODELS)
 
 
 @dataclass(frozen=True)

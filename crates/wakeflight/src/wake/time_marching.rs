@@ -11,7 +11,8 @@ use super::relaxation::{RelaxationWake, tip_rows};
 use super::stencils::{Cell, unknown_corner};
 use super::trailers;
 use super::velocity_field::{
-    FieldWork, InducedVelocity, Induction, RotorInstant, Wanted, field_at, point_velocity, sum,
+    FieldWork, InducedVelocity, Induction, RotorInstant, Wanted, difference, field_at, mean, point_velocity,
+    sum,
 };
 use std::f64::consts::TAU;
 
@@ -494,14 +495,4 @@ fn release_circulation(
             instant.sheet.circulation[m] = strength;
         }
     }
-}
-
-/// Mean of two vectors.
-fn mean(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|c| 0.5 * (a[c] + b[c]))
-}
-
-/// Difference of two vectors.
-fn difference(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|c| a[c] - b[c])
 }

@@ -317,12 +317,12 @@ macro_rules! choices {
             $(#[doc = $meaning] #[serde(rename = $word)] $member),+
         }
 
-        impl $crate::wake::options::Value for $name {
-            const KIND: $crate::wake::options::Kind = $crate::wake::options::Kind::Word;
-            const WORDS: &'static [$crate::wake::options::Word] =
-                &[$($crate::wake::options::Word { word: $word, meaning: $meaning.trim_ascii() }),+];
-            fn plain(self) -> $crate::wake::options::Plain {
-                $crate::wake::options::Plain::Word(match self { $(Self::$member => $word),+ })
+        impl $crate::wake::options::describe::Value for $name {
+            const KIND: $crate::wake::options::describe::Kind = $crate::wake::options::describe::Kind::Word;
+            const WORDS: &'static [$crate::wake::options::describe::Word] =
+                &[$($crate::wake::options::describe::Word { word: $word, meaning: $meaning.trim_ascii() }),+];
+            fn plain(self) -> $crate::wake::options::describe::Plain {
+                $crate::wake::options::describe::Plain::Word(match self { $(Self::$member => $word),+ })
             }
         }
     };
@@ -358,11 +358,11 @@ macro_rules! declare {
 
         impl $name {
             /// What is told of its options, in the order of their declaration.
-            pub fn descriptors() -> &'static [$crate::wake::options::Descriptor] {
-                static TOLD: std::sync::LazyLock<Vec<$crate::wake::options::Descriptor>> =
+            pub fn descriptors() -> &'static [$crate::wake::options::describe::Descriptor] {
+                static TOLD: std::sync::LazyLock<Vec<$crate::wake::options::describe::Descriptor>> =
                     std::sync::LazyLock::new(|| {
                         vec![$(
-                            $crate::wake::options::Descriptor::new::<$type>(
+                            $crate::wake::options::describe::Descriptor::new::<$type>(
                                 stringify!($field), $group, $models, &[$($doc),+], $default,
                             )$(.$told($($value),*))*
                         ),+]
@@ -371,8 +371,8 @@ macro_rules! declare {
             }
 
             /// Checks every value against its range.
-            pub fn check(&self) -> Result<(), $crate::wake::WakeError> {
-                use $crate::wake::options::Value;
+            pub fn check(&self) -> Result<(), $crate::wake::error::WakeError> {
+                use $crate::wake::options::describe::Value;
                 let values = [$(self.$field.plain()),+];
                 Self::descriptors().iter().zip(values).try_for_each(|(told, value)| told.check(value))
             }

@@ -6,8 +6,10 @@ use super::rotor::WakeRotor;
 use crate::vortex::tree::Method;
 use crate::wake::choices::{FarWake, Form, InboardWake, Summation, Trailers};
 use crate::wake::error::WakeError;
-use crate::wake::inboard_sheet::OUTER_END;
 use std::f64::consts::TAU;
+
+/// Outer end of the spans that the inboard sheet gathers (fraction of R).
+pub const OUTER_END: f64 = 0.8;
 
 /// Nearest whole number if `value` is one to rounding.
 fn whole(value: f64) -> Option<usize> {
@@ -219,7 +221,7 @@ impl MarchingOptions {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::wake::options::{Descriptor, FREE_WAKES, Told};
+    use crate::wake::options::describe::{Descriptor, FREE_WAKES, Kind, Told};
 
     fn options() -> WakeOptions {
         WakeOptions::new(4, 8.0, 1.0, 0.4, 0.5, 27.0)
@@ -274,10 +276,9 @@ mod tests {
         for told in groups.into_iter().flatten() {
             let Descriptor { name, meaning, range, words, kind, .. } = told;
             assert!(meaning.ends_with('.') || meaning.ends_with(')'), "{name}: {meaning}");
-            let number =
-                matches!(kind, crate::wake::options::Kind::Number | crate::wake::options::Kind::Whole);
+            let number = matches!(kind, Kind::Number | Kind::Whole);
             assert_eq!(range.is_some(), number, "{name}: a range");
-            assert_eq!(!words.is_empty(), *kind == crate::wake::options::Kind::Word, "{name}: words");
+            assert_eq!(!words.is_empty(), *kind == Kind::Word, "{name}: words");
             match told.default {
                 Told::Always(value) => told.check(value).unwrap(),
                 Told::ByRegime { forward, hover, descent } => {
