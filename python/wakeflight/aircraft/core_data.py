@@ -64,6 +64,7 @@ def assembled(spec: AircraftFile, parts: dict[str, Any], loading: Loading, gross
         "rotor": {
             "n_blades": int(rotor.n_blades),
             "omega": float(rotor.omega),
+            "rotation": rotor.rotation,
             "position": hub,
             "shaft_tilt_forward": float(rotor.shaft_tilt_forward),
             "shaft_tilt_lateral": float(rotor.shaft_tilt_lateral),

@@ -147,6 +147,7 @@ def _of_file(path: Path) -> Rotor:
     core = {
         "n_blades": int(group.n_blades),
         "omega": float(group.omega),
+        "rotation": group.rotation,
         "position": [0.0, 0.0, 0.0],
         "shaft_tilt_forward": 0.0,
         "shaft_tilt_lateral": 0.0,

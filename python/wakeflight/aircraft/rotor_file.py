@@ -29,6 +29,7 @@ from .schema import (
     Offset,
     Position,
     Rate,
+    Rotation,
     Source,
     one_section,
 )
@@ -150,11 +151,12 @@ class RotorBlade(Group):
 
 
 class RotorGroup(Group):
-    """The rotor, counter-clockwise seen from above; hub place, shaft tilt and swashplate phase are not used on a stand."""
+    """The rotor; hub place, shaft tilt and swashplate phase are not used on a stand."""
 
     n_blades: scalar("1", low=1, high=8, whole=True)
     radius: Length
     omega: Rate
+    rotation: Rotation = "ccw"
     blade: RotorBlade
     airfoil: Annotated[RotorAirfoil, BeforeValidator(one_section)]
     tip_loss_factor: scalar("1", low=0.8, high=1.0) | None = None
@@ -195,7 +197,7 @@ class RotorFile(Group):
         return self
 
 
-WORDS = {"root", "name", "kind"}
+WORDS = {"root", "name", "kind", "rotation"}
 """Keys whose text is text, not a number with a unit."""
 
 

@@ -139,13 +139,18 @@ class LagDamper(Group):
         return self
 
 
+Rotation = Literal["ccw", "cw"]
+"""Way a rotor turns seen from above: counter-clockwise (the blade on the right advances) or clockwise."""
+
+
 class Rotor(Group):
-    """Main rotor, counter-clockwise seen from above."""
+    """Main rotor."""
 
     hub: Position
     n_blades: scalar("1", low=2, high=8, whole=True)
     radius: Length
     omega: Rate
+    rotation: Rotation = "ccw"
     shaft_tilt_forward: scalar("rad", low=-30 * _DEG, high=30 * _DEG)
     shaft_tilt_lateral: scalar("rad", low=-30 * _DEG, high=30 * _DEG)
     tip_loss_factor: scalar("1", low=0.8, high=1.0)

@@ -3,6 +3,7 @@
 use crate::airfoil::Airfoil;
 use crate::blade::section::BladeProperties;
 use crate::rotor::lag_damper::LagDamper;
+use crate::rotor::sense::Sense;
 use serde::Deserialize;
 
 /// Main rotor.
@@ -11,8 +12,11 @@ use serde::Deserialize;
 pub struct RotorData {
     /// Number of blades.
     pub n_blades: usize,
-    /// Rotor speed [rad/s], counter-clockwise seen from above.
+    /// Rotor speed [rad/s], positive in the sense of `rotation`.
     pub omega: f64,
+    /// Sense of rotation; counter-clockwise where none is given.
+    #[serde(default)]
+    pub rotation: Sense,
     /// Hub centre from the body origin [m], body axes.
     pub position: [f64; 3],
     /// Shaft tilt forward [rad].

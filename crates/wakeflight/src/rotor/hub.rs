@@ -2,6 +2,7 @@
 
 use super::data::RotorData;
 use super::lag_damper::LagDamper;
+use super::sense::Sense;
 use super::swashplate::Rigging;
 use crate::airfoil::Airfoil;
 use crate::blade::MAX_MODES;
@@ -32,8 +33,10 @@ pub struct Rotor {
     pub lag_damper: Option<LagDamper>,
     /// Sticks to pitch.
     pub rigging: Rigging,
-    /// Rotor speed [rad/s].
+    /// Rotor speed [rad/s], positive in the sense of `rotation`.
     pub omega: f64,
+    /// Sense of rotation.
+    pub rotation: Sense,
     /// Hub centre from the body origin [m].
     pub position: [f64; 3],
     /// Shaft tilt forward and to the right [rad].
@@ -48,6 +51,9 @@ impl Rotor {
         tip_loss_factor: f64,
         discretisation: &Discretisation,
     ) -> Result<Self, BladeError> {
+        if data.rotation == Sense::Clockwise {
+            return Err(BladeError::Clockwise);
+        }
         Ok(Self {
             blade: Blade::new(&data.blade, data.omega, tip_loss_factor, discretisation)?,
             n_blades: data.n_blades,
@@ -56,6 +62,7 @@ impl Rotor {
             lag_damper: data.lag_damper.clone(),
             rigging,
             omega: data.omega,
+            rotation: data.rotation,
             position: data.position,
             shaft_tilt: [data.shaft_tilt_forward, data.shaft_tilt_lateral],
         })

@@ -23,6 +23,7 @@ use wakeflight::numerics::frames::Vec3;
 use wakeflight::numerics::scalar::{Dual, Real};
 use wakeflight::numerics::tables::Grid;
 use wakeflight::rotor::lag_damper::LagDamper;
+use wakeflight::rotor::sense::Sense;
 use wakeflight::rotor::swashplate::Rigging;
 
 pub const OMEGA: f64 = 27.0;
@@ -183,6 +184,7 @@ pub fn aircraft_data(blade: BladeProperties, airfoil: Airfoil) -> AircraftData {
             position: data_files::position(341.25, 0.0, 315.0),
             shaft_tilt_forward: 3f64.to_radians(),
             shaft_tilt_lateral: 0.0,
+            rotation: Sense::CounterClockwise,
             tip_loss_factor: 0.97,
             blade,
             airfoil,
