@@ -1,6 +1,6 @@
 //! A rotor as the data describe it.
 
-use crate::airfoil::Airfoil;
+use crate::airfoil::span::SpanSections;
 use crate::blade::section::BladeProperties;
 use crate::rotor::lag_damper::LagDamper;
 use crate::rotor::sense::Sense;
@@ -27,8 +27,8 @@ pub struct RotorData {
     pub tip_loss_factor: f64,
     /// Blade.
     pub blade: BladeProperties,
-    /// Section tables along the whole span.
-    pub airfoil: Airfoil,
+    /// Section tables along the span.
+    pub airfoil: SpanSections,
     /// Lag damper, where the blade has one.
     pub lag_damper: Option<LagDamper>,
 }

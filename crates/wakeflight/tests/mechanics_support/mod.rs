@@ -10,6 +10,7 @@ use beam_support::uh60a;
 use data_files::{Csv, INCH};
 use wakeflight::aircraft::data::{AircraftData, RotorData};
 use wakeflight::aircraft::model::{Aircraft, HeldInflow, Inputs};
+use wakeflight::airfoil::span::SpanSections;
 use wakeflight::airfoil::{Airfoil, AirfoilTables};
 use wakeflight::airframe::mass::MassProperties;
 use wakeflight::blade::MAX_MODES;
@@ -187,7 +188,7 @@ pub fn aircraft_data(blade: BladeProperties, airfoil: Airfoil) -> AircraftData {
             rotation: Sense::CounterClockwise,
             tip_loss_factor: 0.97,
             blade,
-            airfoil,
+            airfoil: SpanSections::uniform(airfoil),
             lag_damper: Some(lag_damper()),
         },
         rigging: rigging(),
