@@ -113,7 +113,9 @@ def blade_modes(
     rotor_speed: float | None = None,
     reference_pitch: float | None = None,
 ) -> BladeModes:
-    """Modes of the blade of an aircraft or of a rotor, hinged or clamped, at a rotor speed and root pitch; a rigid blade has those of its hinges.
+    """Modes of the blade of an aircraft or of a rotor, hinged or clamped, at a rotor speed and root pitch.
+
+    Those of a rigid blade are the turns about its hinges.
 
     rotor_speed [rad/s]: the nominal one by default, zero for a rotor at rest. reference_pitch [rad]: that of the aircraft's mid
     collective, or of the rotor file, by default. n_elements: the aircraft's, and enough for the modes asked.

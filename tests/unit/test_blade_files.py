@@ -75,7 +75,9 @@ def test_coning_on_a_flap_spring_is_the_closed_form(tmp_path):
     coning = {}
     for flap in (0.0, 4e5):
         spring = f'flap_spring = "{flap} N m/rad"\n'
-        stand = wf.tunnel(rotor(tmp_path, MOMENTS + spring, "flapping"), collective="9 deg", speed="0 kt", inflow="dynamic")
+        stand = wf.tunnel(
+            rotor(tmp_path, MOMENTS + spring, "flapping"), collective="9 deg", speed="0 kt", inflow="dynamic"
+        )
         nu_squared = 1.0 + HINGE * FIRST / INERTIA + flap / (INERTIA * OMEGA**2)
         lift = stand.thrust / 4
         coning[flap] = (stand.beta_0 * INERTIA * OMEGA**2 * nu_squared + 9.80665 * FIRST) / lift
@@ -123,7 +125,13 @@ def number(value, unit):
 
 def test_an_aircraft_with_rigid_blades_needs_no_elastic_numbers(tmp_path):
     lines = (UH60A / "uh60a.toml").read_text().splitlines()
-    elastic = ("structure =", "control_stiffness =", "km1_over_ktheta =", "ka_over_ktheta =", "structural_damping_ratio =")
+    elastic = (
+        "structure =",
+        "control_stiffness =",
+        "km1_over_ktheta =",
+        "ka_over_ktheta =",
+        "structural_damping_ratio =",
+    )
     published = f"blade_mass = {number(256.9, 'lb')}\nfirst_moment = {number(86.7, 'slug ft')}\n"
     published += f"flap_inertia = {number(1512.6, 'slug ft2')}"
     dropped = [line for line in lines if line.startswith(elastic)]

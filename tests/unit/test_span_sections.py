@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import wakeflight as wf
-from wakeflight.limits import StallAngles, StallAlongSpan, stall_along_span, stalled, table_end
+from wakeflight.limits import StallAlongSpan, StallAngles, stall_along_span, stalled, table_end
 
 UH60A = Path(str(resources.files("wakeflight.aircraft"))) / "uh60a"
 ROTOR = """format = 1
@@ -89,13 +89,28 @@ def test_two_equal_sections_are_one(tmp_path, blade_model):
         ((section("a", 5.7, "stations = 0.5"), section("a", 5.7, "stations = 0.6")), ("section a twice",)),
         ((section("a", 5.7, "stations = 0.5"), section("b", 5.7, "extent = [0.5, 1]")), ("stations for one",)),
         ((section("a", 5.7, "extent = [0, 0.4]"), section("b", 5.7, "extent = [0.5, 1]")), ("do not join", "0.4 R")),
-        ((section("a", 5.7, "extent = [0.3, 0.5]"), section("b", 5.7, "extent = [0.5, 1]")), ("must cover", "0.2 to 1")),
-        ((section("a", 5.7, "extent = [0, 0.5]"), section("b", 5.7, "extent = [0.5, 0.9]")), ("must cover", "0.2 to 1")),
-        ((section("a", 5.7, "stations = 1.5"), section("b", 5.7, "stations = 0.5")), ("rotor.airfoil.0.stations", "1.5")),
+        (
+            (section("a", 5.7, "extent = [0.3, 0.5]"), section("b", 5.7, "extent = [0.5, 1]")),
+            ("must cover", "0.2 to 1"),
+        ),
+        (
+            (section("a", 5.7, "extent = [0, 0.5]"), section("b", 5.7, "extent = [0.5, 0.9]")),
+            ("must cover", "0.2 to 1"),
+        ),
+        (
+            (section("a", 5.7, "stations = 1.5"), section("b", 5.7, "stations = 0.5")),
+            ("rotor.airfoil.0.stations", "1.5"),
+        ),
         ((section("a", 5.7, "stations = []"), section("b", 5.7, "stations = 0.5")), ("rotor.airfoil.0.stations",)),
         ((section("a", 5.7, 'stations = "0.5 ft"'), section("b", 5.7, "stations = 0.6")), ("airfoil.0.stations", "ft")),
-        ((section("a", 5.7, "stations = 0.5"), section("b", 9.9, "station = 0.6")), ("airfoil.1.station", "is stations meant")),
-        ((section("a", 5.7, "stations = 0.5"), section("b", 5.7, "stations = 0.6\ncd_increment = -0.02")), ("airfoil[b]",)),
+        (
+            (section("a", 5.7, "stations = 0.5"), section("b", 9.9, "station = 0.6")),
+            ("airfoil.1.station", "is stations meant"),
+        ),
+        (
+            (section("a", 5.7, "stations = 0.5"), section("b", 5.7, "stations = 0.6\ncd_increment = -0.02")),
+            ("airfoil[b]",),
+        ),
     ],
 )
 def test_sections_whose_place_is_not_said_are_refused(tmp_path, sections, named):
@@ -125,7 +140,7 @@ def test_stall_between_two_sections_lies_between_theirs():
     assert high[1, 2] == pytest.approx([ends[0], 0.75 * ends[0] + 0.25 * ends[1], ends[1]])
     assert low == pytest.approx(-high, abs=0.01)
     beyond = stalled(angles, np.full((1, 3), ends[0] + 0.02), np.full((1, 3), 0.3))
-    assert beyond.tolist() == [[True, bool(0.02 > 0.25 * (ends[1] - ends[0])), False]]
+    assert beyond.tolist() == [[True, bool(0.25 * (ends[1] - ends[0]) < 0.02), False]]
     steps = stall_along_span({**airfoil, "stepwise": True}, stations)
     assert steps.at(np.full(3, 0.3))[1] == pytest.approx([ends[0], ends[0], ends[1]])
     assert isinstance(stall_along_span({**airfoil, "tables": tables[:1]}, stations), StallAngles)

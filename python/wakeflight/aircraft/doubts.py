@@ -207,7 +207,9 @@ def _tail(name: str, position: Sequence[float], surface: dict[str, Any], spec: A
 def _tail_rotor(tail: TailRotor, spec: AircraftFile) -> list[str]:
     warnings = []
     if not tail.hub[0] > spec.rotor.hub[0]:
-        warnings.append("tail_rotor.position: not behind the hub, where its thrust to the right would add to the torque")
+        warnings.append(
+            "tail_rotor.position: not behind the hub, where its thrust to the right would add to the torque"
+        )
     low, high = TAIL_DRAG
     if not low <= tail.cd_polar[0] <= high:
         warnings.append(f"tail_rotor.cd_polar: {tail.cd_polar[0]:.3g} without lift; sections have 0.006 to 0.012")
