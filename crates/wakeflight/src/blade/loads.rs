@@ -489,6 +489,6 @@ impl Blade {
             work[i] -=
                 wind_up * (self.control_stiffness * self.root_twist[i]) + modal.q_dot[i] * self.damping[i];
         }
-        self.add_hinge_springs(&modal.q, work);
+        self.hinge_springs.add_work(&self.root, self.n_modes, &modal.q, work);
     }
 }
