@@ -78,10 +78,10 @@ def test_a_column_of_another_code_is_refused_unless_it_says_nothing(tmp_path, co
     assert wf.load_rotor(rotor(tmp_path, old=end, new=f"{end}, {column} = [0, 0]")).warnings == ()
 
 
-def test_sections_along_the_span_are_refused_by_the_key_the_file_has(tmp_path):
+def test_sections_that_do_not_say_where_they_are_are_refused_by_the_key_the_file_has(tmp_path):
     two = "[[rotor.airfoil]]\nname = 'root'\nextent = [0.2, 0.5]\n" + POLAR
     path = rotor(tmp_path, old='[rotor.airfoil]\nname = "section"\n', new=two + "[[rotor.airfoil]]\nname = 'tip'\n")
-    refused(path, "rotor.airfoil", "one section along the span is all there is")
+    refused(path, "rotor.airfoil", "2 sections", "needs stations", "extent")
 
 
 @pytest.mark.parametrize(
