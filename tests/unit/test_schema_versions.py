@@ -52,6 +52,13 @@ def test_a_file_of_version_1_is_the_same_model(tmp_path, name):
     assert first.limits == second.limits
 
 
+def test_rotors_have_the_names_of_the_file(tmp_path):
+    renamed = wf.load_aircraft(uh60a(tmp_path, ('name = "tail"', 'name = "anti-torque"')))
+    assert list(renamed.rotors) == ["main", "anti-torque"]
+    assert renamed.rotors["anti-torque"].radius == pytest.approx(5.5 * 0.3048)
+    assert list(wf.load_aircraft(of_version_1(tmp_path / "old", "uh60a")).rotors) == ["main", "tail"]
+
+
 def test_a_rotor_may_be_given_by_its_alias(tmp_path):
     path = uh60a(tmp_path)
     text = path.read_text()

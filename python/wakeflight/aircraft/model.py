@@ -17,7 +17,7 @@ from .checks import check_aircraft
 from .core_data import assembled, fixed_parts
 from .mass import blade_mass
 from .number import Number, Numbers, Provenance
-from .schema import AircraftFile, Discretisation, Loading, Rotor
+from .schema import AircraftFile, Discretisation, Loading, Rotor, TailRotor
 from .span import Deck
 from .tables import TableFile
 
@@ -128,6 +128,12 @@ class Aircraft:
     def rotor(self) -> Rotor:
         """Main rotor: `radius`, `omega`, `n_blades`, `blade.root_station`, `blade.root_cutout`, ... in SI."""
         return self._spec.rotor
+
+    @property
+    def rotors(self) -> dict[str, Rotor | TailRotor]:
+        """Rotors by their names in the file (`main`, `tail` where it gives none), the one with blades first."""
+        listed = (self._spec.rotor, self._spec.tail_rotor)
+        return {rotor.name: rotor for rotor in listed if rotor is not None}
 
     @property
     def loading(self) -> Loading:
