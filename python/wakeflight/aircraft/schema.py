@@ -53,9 +53,7 @@ class Blade(BladeGroup):
     @model_validator(mode="after")
     def _moves(self) -> Blade:
         if self.root == "clamped" and not self.flexible:
-            raise ValueError(
-                "flexible = false: a rigid blade that is clamped does not move; in flight blades must flap"
-            )
+            raise ValueError("is rigid and clamped: it does not move; in flight blades must flap")
         return self
 
 
