@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from . import _core
-from .limits import in_vortex_ring, momentum_inflows, stall_angles, stalled, sticks_beyond
+from .limits import in_vortex_ring, momentum_inflows, stall_along_span, stalled, sticks_beyond
 from .model import Model
 from .monitors.rotor import SLOW, STALLED_SHARE
 from .trim_equations import INCH
@@ -68,7 +68,7 @@ def over_the_disk(
     core, n_blades = model.core, model.n_blades
     n = model.steps_per_revolution if inflow_map is None else inflow_map.shape[0]
     beyond, ct = [], []
-    angles = stall_angles(model.data["rotor"]["airfoil"])
+    angles = stall_along_span(model.data["rotor"]["airfoil"], model.stations)
     slow = SLOW * model.tip_speed / model.speed_of_sound
     incidence = core.trim_stabilator(problem, x)
     for k in range(n // n_blades):

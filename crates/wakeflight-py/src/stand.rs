@@ -118,7 +118,7 @@ impl PyStand {
             "weissinger-incompressible" => Some(SectionLift::Tangency { prandtl_glauert: false }),
             other => return Err(invalid(format!("blade_model = {other}: not a model of the blade"))),
         };
-        rotor.thin = lift.map(|lift| ThinSection::of(&data.airfoil, lift));
+        rotor.thin = lift.map(|lift| ThinSection { lift });
         let air = Air { density, speed_of_sound };
         let mass_flow = if windmill { MassFlow::WindmillBrake } else { MassFlow::Momentum };
         let pitt_peters = PittPeters { mass_flow, ..PittPeters::default() };
