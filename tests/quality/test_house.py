@@ -21,6 +21,7 @@ RUST_ORDER = (
     "blade",
     "rotor",
     "airframe",
+    "trim",
     "aircraft",
     "integrate",
 )
@@ -29,7 +30,7 @@ RUST_ORDER = (
 PYTHON_ORDER = (
     {"_core", "errors", "schema", "regime", "disk"},
     {"units", "references", "vortex", "progress", "limits", "text"},
-    {"condition", "inflow", "results", "maneuvers", "wing", "monitors"},
+    {"condition", "trim_target", "inflow", "results", "maneuvers", "wing", "monitors"},
     {"aircraft", "thinning"},
     {"model", "modes"},
     {"integrators", "exchange"},

@@ -8,6 +8,7 @@ mod flight;
 mod inflow;
 mod rotor;
 mod stand;
+mod trim;
 mod vortex;
 mod wake;
 
@@ -20,6 +21,7 @@ fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
     blade::register(m)?;
     flight::register(m)?;
     stand::register(m)?;
+    trim::register(m)?;
     inflow::register(m)?;
     vortex::register(m)?;
     wake::register(m)?;
