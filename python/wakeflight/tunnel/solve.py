@@ -18,12 +18,13 @@ from ..exchange import MarchingExchange
 from ..inflow import trim_model
 from ..progress import Progress, Silent
 from ..regime import REVOLUTIONS
-from ..trim_equations import inflow_of_states, without_inflow
+from ..trim_equations import inflow_of_states, unmet, without_inflow
+from ..trim_newton import Work, newton
 from ..wake_trim import WakeInTrim
 from .model import StandModel
 
-EQUATION_TOLERANCE = 1e-6
-"""Largest residual: angle [rad] of a blade harmonic or control, blade loading, inflow ratio."""
+LINEARISATIONS = 60
+"""Newton steps at most."""
 CHANGE_TOLERANCE = 1e-3
 """Change of pitch controls and blade harmonics [rad], and of thrust (relative), between passes on the wake."""
 MAX_OUTER = 15
@@ -108,39 +109,43 @@ def momentum_inflow(ct: float, mu: float, mu_z: float, least: bool = False) -> f
 
 
 def solve_equations(model: StandModel, problem: _core.TrimProblem, x0: np.ndarray) -> np.ndarray:
-    """Solve the stand's equations with MINPACK's hybrid method and the exact Jacobian."""
+    """Solve the stand's equations from `x0` by the Newton method of every trim."""
+    attempt = newton(model, problem, x0, Work(LINEARISATIONS))
+    if attempt.met:
+        return attempt.x
+    theta = ", ".join(f"{np.degrees(v):.2f}" for v in attempt.x[:3])
+    mu, mu_z = model.condition.mu(model.tip_speed), model.condition.mu_z(model.tip_speed)
+    branches = model.windmill and mu_z > 0.0 and mu_z > np.sqrt(8.0) * mu
+    why = "; momentum theory has no steady answer where the windmill brake state begins" if branches else ""
+    raise NumericalFailure(
+        f"no steady motion of the rotor found: {unmet(model, problem, attempt.x)}; "
+        f"stopped at theta_0, theta_1c, theta_1s = {theta} deg{why}"
+    )
+
+
+def hybrid(model: StandModel, problem: _core.TrimProblem, x0: np.ndarray) -> np.ndarray:
+    """Where MINPACK's hybrid method comes to rest from the closed-form start `x0`, with dynamic inflow.
+
+    At no thrust the mass flow of momentum theory ends in a root: any lambda_0 then meets its equation, and Newton's longer steps
+    find such an answer of rotors that carry next to nothing.
+    """
     from scipy.optimize import root
 
     core = model.core
-    result = root(
+    found = root(
         lambda x: core.trim_residual(problem, x),
         x0,
         jac=lambda x: core.trim_jacobian(problem, x),
         method="hybr",
         options={"xtol": 1e-12, "maxfev": 400},
     )
-    x = result.x
-    f = core.trim_residual(problem, x) if np.all(np.isfinite(x)) else np.full(x.size, np.nan)
-    if not np.all(np.isfinite(f)):
-        raise NumericalFailure("the rotor's equations left the finite numbers")
-    worst = int(np.argmax(np.abs(f)))
-    if abs(f[worst]) > EQUATION_TOLERANCE:
-        name, _ = core.trim_layout(problem).equations[worst]
-        theta = ", ".join(f"{np.degrees(v):.2f}" for v in x[:3])
-        rates = model.condition.mu(model.tip_speed), model.condition.mu_z(model.tip_speed)
-        branches = model.windmill and rates[1] > 0.0 and rates[1] > np.sqrt(8.0) * rates[0]
-        why = "; momentum theory has no steady answer where the windmill brake state begins" if branches else ""
-        raise NumericalFailure(
-            f"no steady motion of the rotor found: equation {name} is not met (residual {f[worst]:.3g}); "
-            f"stopped at theta_0, theta_1c, theta_1s = {theta} deg{why}"
-        )
-    return x
+    return found.x
 
 
 def with_dynamic_inflow(model: StandModel) -> Solution:
     """The rotor with dynamic inflow: a result of its own, or the start of a free wake."""
     problem = model.problem(None)
-    x = solve_equations(model, problem, first_guess(model, problem))
+    x = solve_equations(model, problem, hybrid(model, problem, first_guess(model, problem)))
     n = model.steps_per_revolution
     turn = model.core.passages(problem, x, 2 * np.pi * np.arange(n) / n, None)
     return Solution(model, problem, x, turn["inflow"], turn["circulation"])
