@@ -48,6 +48,17 @@ Weight = Annotated[str | None, typer.Option("--weight", help='"16000 lbf"; lb an
 Sideslip = Annotated[str | None, typer.Option("--sideslip", help='wind from the right +, "5 deg"')]
 TurnRate = Annotated[str | None, typer.Option("--turn-rate", help='to the right +, "3 deg/s"')]
 Bank = Annotated[str | None, typer.Option("--bank", help='to the right +, "10 deg"')]
+LoadFactor = Annotated[float | None, typer.Option("--load-factor", help="of a turn whose rate is found, 1.5")]
+Turn = Annotated[str | None, typer.Option("--turn", help="direction of that turn: right, left")]
+Power = Annotated[
+    str | None, typer.Option("--power", help='of the engines, path or speed found; "0 hp" is autorotation')
+]
+Collective = Annotated[
+    str | None, typer.Option("--collective", help='blade pitch given, path or speed found, "14 deg"')
+]
+Free = Annotated[
+    str | None, typer.Option("--free", help="what is found for --power or --collective: flight_path, speed")
+]
 Revolutions = Annotated[float | None, typer.Option("--revolutions", help="revolutions to fly; the manoeuvre's own")]
 AzimuthStep = Annotated[str | None, typer.Option("--azimuth-step", help='divides 360 deg / blades, "10 deg"')]
 WakeTurns = Annotated[float | None, typer.Option("--wake-turns", help=f"turns of free wake; {described('turns')}")]
@@ -171,6 +182,11 @@ def trim(
     sideslip: Sideslip = None,
     turn_rate: TurnRate = None,
     bank: Bank = None,
+    load_factor: LoadFactor = None,
+    turn: Turn = None,
+    power: Power = None,
+    collective: Collective = None,
+    free: Free = None,
     azimuth_step: AzimuthStep = None,
     wake_turns: WakeTurns = None,
     wake_scheme: WakeScheme = None,
@@ -180,6 +196,8 @@ def trim(
 ) -> None:
     """Trim the aircraft, print a table, write trim.nc."""
     given = _given(speed, flight_path, altitude, weight, sideslip, turn_rate, bank)
+    given |= {name: value for name, value in (("load_factor", load_factor), ("turn", turn)) if value is not None}
+    asked = {"power": power, "collective": collective, "free": free}
     wake = {"azimuth_step": azimuth_step, "turns": wake_turns, "scheme": wake_scheme}
     folder = out or Path("runs/trim")
     request = _request(aircraft, loading, condition, given, inflow, wake, threads, None, folder, blades=blades)
@@ -188,7 +206,7 @@ def trim(
 
     solve = _keeping(solve, lambda found: _save_trim(found, request.out))
     with Progress() as progress:
-        start = solve(request.aircraft, request.condition, inflow=request.inflow, progress=progress)
+        start = solve(request.aircraft, request.condition, inflow=request.inflow, progress=progress, **asked)
     print(start.table())
     _save_trim(start, request.out)
 

@@ -99,7 +99,7 @@ class CompiledRotor:
         """Unknowns of a trim with angles that mean the same brought to one of them."""
         return x
 
-    def is_answer(self, x: np.ndarray) -> bool:
+    def is_answer(self, problem: _core.TrimProblem, x: np.ndarray) -> bool:
         """Whether unknowns that meet the equations are what was asked for."""
         return True
 
@@ -217,10 +217,12 @@ class Model(CompiledRotor):
             x[i] = min(turned, np.pi)
         return x
 
-    def is_answer(self, x: np.ndarray) -> bool:
-        """Whether it is the flight asked for: not looping, and not backwards where the heading is left free."""
+    def is_answer(self, problem: _core.TrimProblem, x: np.ndarray) -> bool:
+        """Whether it is the flight asked for: not looping, not backwards along its path or where the heading is left free."""
         free = self.condition.bank_share > 0.5
-        return abs(x[PITCH]) < 0.5 * np.pi and not (free and abs(x[YAW]) > 0.5 * np.pi)
+        speed, flight_path, _ = self.core.trim_path(problem, x)
+        along = speed >= 0.0 and abs(flight_path) <= 0.5 * np.pi
+        return along and abs(x[PITCH]) < 0.5 * np.pi and not (free and abs(x[YAW]) > 0.5 * np.pi)
 
     @property
     def rotor_tables(self) -> dict[str, Any]:

@@ -220,11 +220,11 @@ def trim(
     condition = condition_for(aircraft, condition)
     chosen = inflow_model(inflow)
     chosen.step(aircraft)
+    asked = target(condition, power, collective, free)
     progress.phase("trim", None)
 
     # dynamic inflow first: the result itself, or the start of the free wake
     dynamic = chosen if isinstance(chosen, DynamicInflow) else DynamicInflow(n_stations=chosen.n_stations)
-    asked = target(power, collective, free)
     simple = Model.build(aircraft, condition, dynamic, asked)
     problem, x = solve_condition(simple, n_harmonics)
     simple = simple.flown(problem, x)

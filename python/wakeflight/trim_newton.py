@@ -85,7 +85,7 @@ def newton(
             best = (level, x)
     level, x = best
     x = model.normalised(x)
-    return Attempt(x, level <= 1.0 and model.is_answer(x), steps)
+    return Attempt(x, level <= 1.0 and model.is_answer(problem, x), steps)
 
 
 def inverted(jacobian: np.ndarray) -> np.ndarray | None:

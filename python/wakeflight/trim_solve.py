@@ -133,7 +133,9 @@ def to_target(model: Model, n_harmonics: int, work: Work) -> tuple[_core.TrimPro
         return problem, attempt.x
     path = Path(
         lambda s: replace(model, target=target.at(has + s * (target.value - has))),
-        lambda now, x: f"{target.name} ends at {target.shown(now.target.value)} of {target.shown(target.value)}",
+        lambda now, x: (
+            f"{target.name} ends at {target.shown(now.target.value)} of {target.shown(target.value)} {told_path(now, problem, x)}"
+        ),
         x,
     )
     reached = follow(model, path, n_harmonics, work)
@@ -294,6 +296,12 @@ def told_turn(now: Model, x: np.ndarray) -> str:
     c = now.condition
     load = np.hypot(1.0, c.turn_rate * c.speed * np.cos(c.flight_path) / STANDARD_GRAVITY)
     return f"{np.degrees(x[ROLL]):.0f} deg of bank, load factor {load:.2f}, {np.degrees(abs(c.turn_rate)):.1f}"
+
+
+def told_path(now: Model, problem: _core.TrimProblem, x: np.ndarray) -> str:
+    """Speed and slope of a path that was found."""
+    speed, flight_path, _ = now.core.trim_path(problem, x)
+    return f"with {told_speed(speed)} on a path of {np.degrees(flight_path):.1f} deg"
 
 
 def told_speed(speed: float) -> str:

@@ -6,6 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from .condition import SLOWEST_FREE, FlightCondition
 from .errors import InputError
 from .units import quantity, shown
 
@@ -32,8 +33,10 @@ class Target:
         return shown(value, UNITS[self.name][1])
 
 
-def target(power: Any = None, collective: Any = None, free: str | None = None) -> Target | None:
-    """The target of a trim from text with units or pint quantities, None where nothing is asked."""
+def target(
+    condition: FlightCondition, power: Any = None, collective: Any = None, free: str | None = None
+) -> Target | None:
+    """The target of a trim in a complete condition, from text with units or pint quantities; None where nothing is asked."""
     if free is not None and free not in FREE:
         raise InputError.of("free", free, f"allowed: {', '.join(FREE)}")
     given = {name: value for name, value in (("power", power), ("collective", collective)) if value is not None}
@@ -44,4 +47,8 @@ def target(power: Any = None, collective: Any = None, free: str | None = None) -
     if len(given) > 1:
         raise InputError.of("collective", collective, "give either power or collective")
     ((name, value),) = given.items()
-    return Target(name, quantity(value, UNITS[name][0], name), free or FREE[0])
+    found = Target(name, quantity(value, UNITS[name][0], name), free or FREE[0])
+    if condition.speed < SLOWEST_FREE:
+        allowed = f"a speed of {shown(SLOWEST_FREE, 'm/s')} and more: at rest there is no path to leave free for {name}"
+        raise InputError.of("speed", shown(condition.speed, "kt"), allowed)
+    return found

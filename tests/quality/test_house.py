@@ -30,8 +30,8 @@ RUST_ORDER = (
 PYTHON_ORDER = (
     {"_core", "errors", "schema", "regime", "disk"},
     {"units", "references", "vortex", "progress", "limits", "text"},
-    {"condition", "trim_target", "inflow", "results", "maneuvers", "wing", "monitors"},
-    {"aircraft", "thinning"},
+    {"condition", "inflow", "results", "maneuvers", "wing", "monitors"},
+    {"aircraft", "thinning", "trim_target"},
     {"model", "modes"},
     {"integrators", "exchange"},
     {"wake_trim", "trim_results", "trim_equations"},

@@ -129,10 +129,11 @@ impl PyStand {
     fn trim_state<'py>(
         &self,
         py: Python<'py>,
-        _problem: &PyTrimProblem,
-        _x: PyReadonlyArray1<f64>,
-        _t: f64,
+        problem: &PyTrimProblem,
+        x: PyReadonlyArray1<f64>,
+        t: f64,
     ) -> (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>) {
+        let _ = (problem, x, t);
         let y = [self.inner.velocity, self.inner.rates].concat();
         (y.into_pyarray(py), vec![0.0; 6].into_pyarray(py))
     }

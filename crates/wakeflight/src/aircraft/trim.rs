@@ -55,7 +55,8 @@ impl Host for Aircraft {
         let attitude = quaternion(head.roll, head.pitch, head.yaw);
         let (climb, forward) = head.path.flight_path.sin_cos();
         let speed = head.path.speed;
-        let velocity = rot_ib(attitude).transposed() * Vec3::new(speed * forward, S::zero(), -(speed * climb));
+        let velocity =
+            rot_ib(attitude).transposed() * Vec3::new(speed * forward, S::zero(), -(speed * climb));
         let (sp, cp) = head.pitch.sin_cos();
         let (sr, cr) = head.roll.sin_cos();
         let turn = head.path.turn_rate;

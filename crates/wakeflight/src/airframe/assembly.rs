@@ -194,11 +194,7 @@ impl Airframe {
             (Some(schedule), _) => {
                 let root = (density / SEA_LEVEL_DENSITY).sqrt();
                 let equivalent = speed.chain(speed.re() * root / KNOT, root / KNOT);
-                schedule.incidence(
-                    equivalent,
-                    collective * (100.0 / schedule.collective_travel),
-                    pitch_rate,
-                )
+                schedule.incidence(equivalent, collective * (100.0 / schedule.collective_travel), pitch_rate)
             }
             (None, Some(surface)) => S::cst(surface.incidence),
             (None, None) => S::zero(),

@@ -25,14 +25,13 @@ impl<H: Host> Trim<'_, H> {
         let carried = self.host.carried(&self.layout.head(x));
         let pitch: [f64; 4] = self.host.pitch(self.layout.head(x).controls);
         let disk = self.layout.head(x).inflow;
-        let slopes =
-            self.host.rotor().revolution_slopes(&self.revolution(&carried, x), |l, psi| {
-                let inflow = match &self.problem.inflow {
-                    Inflow::Dynamic => AzimuthInflow::Disk(disk),
-                    Inflow::Map { inflow, .. } => AzimuthInflow::Held(self.row(inflow, l)),
-                };
-                (self.host.blade_pitch(&pitch, psi), inflow)
-            });
+        let slopes = self.host.rotor().revolution_slopes(&self.revolution(&carried, x), |l, psi| {
+            let inflow = match &self.problem.inflow {
+                Inflow::Dynamic => AzimuthInflow::Disk(disk),
+                Inflow::Map { inflow, .. } => AzimuthInflow::Held(self.row(inflow, l)),
+            };
+            (self.host.blade_pitch(&pitch, psi), inflow)
+        });
         out.fill(0.0);
         let by_loads = self.head_slopes(x, &slopes, out);
 
