@@ -78,10 +78,10 @@ def tunnel(
     ----------
     aircraft : the rotor: a loaded `Rotor` or `Aircraft`, the name of a shipped aircraft, or the path of a rotor file or an
         aircraft file. It turns counter-clockwise seen from above.
-    collective : blade pitch at `collective_at`. Where neither collective, thrust, ct, torque nor power is given, thrust is the weight
-        that the aircraft (or the rotor file's `[condition]`) names, else C_T/sigma = 0.07; and where cyclic pitch, flapping
-        and hub moments are open too and there is a wind across the shaft, flapping is zero (hub moments, where clamped rigid
-        blades cannot flap). What was assumed is in `.assumed`, the table and the attributes.
+    collective : blade pitch at `collective_at`. Where neither collective, thrust, ct, torque nor power is given, thrust is the
+        weight that the aircraft (or the rotor file's `[condition]`) names, else C_T/sigma = 0.07; and where cyclic pitch,
+        flapping and hub moments are open too and there is a wind across the shaft, flapping is zero (hub moments, where
+        clamped rigid blades cannot flap). What was assumed is in `.assumed`, the table and the attributes.
     speed, shaft_angle : wind from the front, and tilt of the shaft, positive aft (disk met from below, as in descent);
         +90 deg is axial descent, -90 deg axial climb.
     inflow : `time-marching`, `relaxation`, `dynamic`, `annular` (hover and axial climb: blade elements and momentum ring by

@@ -171,7 +171,8 @@ def filled(
 def control_equations(rotor: Rotor, density: float, omega: float, asked: dict[str, Any]) -> tuple:
     """The three equations (name, SI value) that the pitch controls are found from.
 
-    asked: collective, collective_at, lateral_cyclic, longitudinal_cyclic, thrust, ct, torque, power, flapping, hub_roll, hub_pitch.
+    asked: collective, collective_at, lateral_cyclic, longitudinal_cyclic, thrust, ct, torque, power, flapping, hub_roll,
+    hub_pitch.
     """
     limit = math.radians(90.0)
     heads = [name for name in HEADS if asked[name] is not None]
