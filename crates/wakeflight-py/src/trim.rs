@@ -6,7 +6,8 @@ use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2}
 use pyo3::prelude::*;
 use wakeflight::trim::equation::Equation;
 use wakeflight::trim::host::Host;
-use wakeflight::trim::problem::{Inflow, Path, PathUnknown, Problem};
+use wakeflight::trim::path::{Path, PathUnknown};
+use wakeflight::trim::problem::{Inflow, Problem};
 use wakeflight::trim::residual::Trim;
 
 /// A steady condition to trim for; see `wakeflight.trim_equations`.
@@ -120,12 +121,7 @@ pub fn motion<'py, H: Host>(
     let trim = Trim::new(host, &problem.0).map_err(invalid)?;
     let x = trim.checked(x.as_slice()?).map_err(invalid)?;
     let n = host.rotor().blade.n_modes;
-    let (mut q, mut q_dot) = (Vec::new(), Vec::new());
-    for k in 0..n_azimuths {
-        let m = trim.motion(x, std::f64::consts::TAU * k as f64 / n_azimuths as f64);
-        q.extend_from_slice(&m.q[..n]);
-        q_dot.extend_from_slice(&m.q_dot[..n]);
-    }
+    let (q, q_dot) = trim.motions(x, n_azimuths);
     let shape = |v| Array::from_shape_vec((n_azimuths, n), v).map_err(invalid);
     Ok((shape(q)?.into_pyarray(py), shape(q_dot)?.into_pyarray(py)))
 }

@@ -1,7 +1,7 @@
 //! The equations a trim can be asked to meet.
 
 use super::convention::Convention;
-use super::problem::ProblemError;
+use super::error::ProblemError;
 
 /// An equation for a control, an angle of attitude or a free part of the path; loads are means over a revolution.
 #[derive(Clone, Copy, Debug, PartialEq)]

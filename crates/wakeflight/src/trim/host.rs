@@ -1,5 +1,6 @@
 //! What a trim asks of what carries the rotor.
 
+use super::path::Path;
 use crate::blade::aerodynamics::Air;
 use crate::blade::kinematics::PitchMotion;
 use crate::blade::loads::{BladeLoads, HubMotion};
@@ -7,7 +8,6 @@ use crate::inflow::pitt_peters::PittPeters;
 use crate::numerics::frames::{Body, Vec3};
 use crate::numerics::scalar::Real;
 use crate::rotor::hub::Rotor;
-use crate::trim::problem::Path;
 
 /// Unknowns at the head of the list, and what of the path is given.
 #[derive(Clone, Copy, Debug)]

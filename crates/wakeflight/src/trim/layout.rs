@@ -1,7 +1,9 @@
 //! The one layout of unknowns and equations, with their names.
 
+use super::error::ProblemError;
 use super::host::{Head, Host};
-use super::problem::{Path, PathUnknown, Problem, ProblemError};
+use super::path::{Path, PathUnknown};
+use super::problem::Problem;
 use crate::numerics::scalar::Real;
 use crate::rotor::periodic::Harmonics;
 

@@ -6,9 +6,11 @@
 //! revolution; every harmonic of the blade equations.
 pub mod convention;
 pub mod equation;
+pub mod error;
 pub mod host;
 pub mod jacobian;
 pub mod layout;
+pub mod path;
 pub mod problem;
 pub mod residual;
 mod stand;

@@ -1,15 +1,16 @@
 //! The trim equations: revolution-averaged balances and loads, periodic blade motion by Galerkin projection.
 
 use super::equation::Equation;
+use super::error::ProblemError;
 use super::host::{Carried, Head, Host, RotorMean};
 use super::layout::Layout;
-use super::problem::{Inflow, Problem, ProblemError};
+use super::problem::{Inflow, Problem};
 use crate::blade::kinematics::ModalMotion;
 use crate::blade::loads::{BladeInflow, BladeLoads};
 use crate::inflow::pitt_peters::DiskCondition;
 use crate::numerics::scalar::Real;
 use crate::rotor::periodic::{BladeGiven, Revolution};
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 /// A problem on a host.
 #[derive(Debug)]
@@ -51,6 +52,18 @@ impl<'a, H: Host> Trim<'a, H> {
     /// Modal coordinates, rates and accelerations at azimuth `psi` [rad].
     pub fn motion<S: Real>(&self, x: &[S], psi: f64) -> ModalMotion<S> {
         self.layout.harmonics().motion(x, psi, self.host.rotor().omega)
+    }
+
+    /// Modal coordinates and rates at `n_azimuths` azimuths of a revolution, row-major (n_azimuths, n_modes).
+    pub fn motions(&self, x: &[f64], n_azimuths: usize) -> (Vec<f64>, Vec<f64>) {
+        let n = self.host.rotor().blade.n_modes;
+        let (mut q, mut q_dot) = (Vec::new(), Vec::new());
+        for l in 0..n_azimuths {
+            let m = self.motion(x, TAU * l as f64 / n_azimuths as f64);
+            q.extend_from_slice(&m.q[..n]);
+            q_dot.extend_from_slice(&m.q_dot[..n]);
+        }
+        (q, q_dot)
     }
 
     /// Residual of every equation in the units of [`Layout::equations`]; inflow states by their rates over the rotor speed, loads
