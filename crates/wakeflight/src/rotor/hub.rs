@@ -235,6 +235,13 @@ impl Rotor {
         [force.z * scale, -(moment.x * (scale / radius)), moment.y * (scale / radius)]
     }
 
+    /// Blade area over disk area.
+    pub fn solidity(&self) -> f64 {
+        let blade = &self.blade;
+        let area: f64 = blade.stations.iter().map(|s| s.geometry.chord * s.geometry.width).sum();
+        self.n_blades as f64 * area / (std::f64::consts::PI * blade.radius * blade.radius)
+    }
+
     /// Station about which the wake's rigid equivalent blade turns [m].
     pub fn hinge(&self) -> f64 {
         self.blade.root_station
