@@ -19,13 +19,13 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from .aircraft import Aircraft, Rotor, load_aircraft, load_rotor
     from .condition import FlightCondition, condition_for
-    from .converge import converge
     from .errors import InputError, NumericalFailure, WakeflightError
     from .flight import Flight, fly
     from .inflow import AnnularInflow, DynamicInflow, RelaxationWake, TimeMarchingWake, inflow_model
     from .maneuvers import Maneuver, arrested_descent, load_maneuver, roll_reversal
     from .modes import blade_modes
     from .references import bibtex
+    from .studies.converge import converge
     from .trim import Trim, trim
     from .tunnel import Tunnel, tunnel
     from .vortex import induced_velocity
@@ -38,7 +38,7 @@ _HOME = {
     "load_rotor": "aircraft",
     "FlightCondition": "condition",
     "condition_for": "condition",
-    "converge": "converge",
+    "converge": "studies.converge",
     "InputError": "errors",
     "NumericalFailure": "errors",
     "WakeflightError": "errors",

@@ -36,13 +36,11 @@ class MarchingExchange:
             self.lambda_far,
             self.circulation,
             self.inflow,
-            getattr(model.inflow, "recorrect", 0),
-            getattr(model.inflow, "extrapolate", False),
         )
         # inflow at the latest passage of every azimuth, and the map held where it is renewed less often than every step
         self.passages = trimmed.inflow_map.copy()
         self.passed_circulation = trimmed.circulation.copy()
-        interval = getattr(model.inflow, "update_interval", None)
+        interval = model.inflow.update_interval
         self.update_steps = None if interval is None else round(interval / (2 * np.pi) * self.n)
         self._held_map: np.ndarray | None = None
         self.monitors = {"max_displacement": 0.0, "odd_even": 0.0, "vortex_blade_distance": np.nan}

@@ -20,7 +20,7 @@ import numpy as np
 from . import _core
 from .errors import InputError, NumericalFailure
 from .exchange import MarchingExchange, RelaxationExchange
-from .inflow import DynamicInflow, InflowModel, RelaxationWake, TimeMarchingWake, inflow_model, like, trim_model
+from .inflow import InflowModel, inflow_model, like
 from .integrators import INTEGRATORS
 from .maneuvers import ROUNDING, Maneuver
 from .model import Model, flight_regime
@@ -277,13 +277,13 @@ def flight_model(start: Trim, inflow: str | InflowModel | None) -> Model:
     What depends on the regime is that of the trimmed condition, and stays so where the manoeuvre leads into another.
     """
     if inflow is None:
-        inflow = "dynamic" if isinstance(start.inflow, DynamicInflow) else "time-marching"
+        inflow = "dynamic" if start.inflow.is_dynamic else "time-marching"
     trimmed = start.inflow
     chosen = inflow_model(inflow)
-    if isinstance(chosen, DynamicInflow) != isinstance(trimmed, DynamicInflow):
-        needed = "dynamic" if isinstance(chosen, DynamicInflow) else "relaxation"
+    if chosen.is_dynamic != trimmed.is_dynamic:
+        needed = "dynamic" if chosen.is_dynamic else "relaxation"
         raise InputError.of("inflow", chosen.name, f"needs a trim with inflow='{needed}', this one used {trimmed.name}")
-    if isinstance(chosen, DynamicInflow):
+    if chosen.is_dynamic:
         return start.model
     if isinstance(inflow, str) and not isinstance(trimmed, type(chosen)):
         chosen = like(type(chosen), trimmed)
@@ -291,15 +291,9 @@ def flight_model(start: Trim, inflow: str | InflowModel | None) -> Model:
         chosen = trimmed
     regime = flight_regime(start.aircraft, start.condition)
     chosen = chosen.resolved(regime)
-    before = trim_model(trimmed).resolved(regime).core_options(start.aircraft)
-    now = chosen.core_options(start.aircraft)
-    for name in sorted(set(now) - {"scheme", "predictor", "evaluation", "time_filter", "relaxation"}):
-        if before[name] != now[name]:
-            raise InputError.of(
-                name,
-                now[name],
-                f"must be that of the trim, {before[name]}: trim again with this inflow model",
-            )
+    chosen.check_on(start.aircraft)
+    for name, before, now in chosen.unlike(trimmed.resolved(regime), start.aircraft):
+        raise InputError.of(name, now, f"must be that of the trim, {before}: trim again with this inflow model")
     return Model.build(start.aircraft, start.condition, chosen)
 
 
@@ -330,9 +324,9 @@ def scheduled_incidence(model: Model, incidence: float, y: np.ndarray, stick: np
 
 def inflow_source(model: Model, start: Trim, progress: Progress | Silent) -> tuple[InflowSource, ConvergencePhase]:
     """The inflow model at the start of the flight; the time-marching wake after its convergence phase."""
-    if isinstance(model.inflow, DynamicInflow):
+    if model.inflow.is_dynamic:
         return DynamicSource(), ConvergencePhase()
-    if isinstance(model.inflow, RelaxationWake):
+    if model.inflow.is_relaxed:
         relaxed = RelaxationExchange(model, copy.copy(start.wake))
         q, q_dot = model.core.trim_motion(start.problem, start.x, relaxed.n)
         relaxed.trimmed.relaxation = start.wake.relaxation.copy()
@@ -340,7 +334,7 @@ def inflow_source(model: Model, start: Trim, progress: Progress | Silent) -> tup
         for step in range(relaxed.n):
             relaxed.remember(step, q[relaxed.rows(step)], q_dot[relaxed.rows(step)])
         return RelaxationSource(relaxed), ConvergencePhase()
-    assert isinstance(model.inflow, TimeMarchingWake)
+    assert model.inflow.is_marching
     marching = MarchingExchange(model, start.wake)
     return MarchingSource(marching), converge(marching, start, progress)
 

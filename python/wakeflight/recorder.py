@@ -11,7 +11,6 @@ import numpy as np
 
 from . import _core
 from .flight_monitors import check_sample, monitors
-from .inflow import DynamicInflow
 from .maneuvers import Maneuver
 from .model import Model
 from .modes import mode_labels
@@ -91,7 +90,7 @@ class Recorder:
         self.blade_angles["flap"][step], self.blade_angles["lead"][step] = angles
         self.scalars["power"][step] = sum(out["power"])
         self.scalars["stabilator"][step] = stabilator
-        dynamic = isinstance(self.model.inflow, DynamicInflow)
+        dynamic = self.model.inflow.is_dynamic
         first = self.model.layout["inflow"][0]
         self.scalars["inflow_mean"][step] = y[first] if dynamic else mean_inflow
         wake = getattr(self.source, "wake", None)
@@ -144,7 +143,7 @@ class Recorder:
         arrays["energy_balance"] = self.energy_balance()
         arrays |= variables(self.monitors)
         arrays |= {name: values[:n] for name, values in self.blade_angles.items()}
-        if not isinstance(model.inflow, DynamicInflow):
+        if not model.inflow.is_dynamic:
             arrays |= self._wake_arrays(phase)
         counted = self.counters()
         return assemble(
@@ -274,7 +273,7 @@ def position_of(wake: Any, step: int) -> np.ndarray:
 
 def keeps_sheets(model: Model, n_steps: int) -> bool:
     """Whether the run is short enough to keep the whole lattice of a full-span wake."""
-    if getattr(model.inflow, "trailers", "tip") == "tip":
+    if not model.inflow.is_full_span:
         return False
     n = model.steps_per_revolution
     snapshots = 1 + SNAPSHOTS_PER_REVOLUTION * n_steps // n

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from wakeflight import cli
+from wakeflight.cli import outcome
 from wakeflight.errors import InputError, NumericalFailure
 
 FLY = ["fly", "arrested-descent"]
@@ -29,7 +30,7 @@ def _nothing_starts(monkeypatch):
     def started(*_args):
         raise AssertionError("started")
 
-    monkeypatch.setattr(cli, "_fly_once", started)
+    monkeypatch.setattr(outcome, "fly_once", started)
     monkeypatch.delenv("WAKEFLIGHT_THREADS", raising=False)
 
 
@@ -54,6 +55,23 @@ def _nothing_starts(monkeypatch):
         ([*FLY, "--wake-turns", "0"], "turns"),
         ([*FLY, "--wake-scheme", "euler"], "scheme"),
         ([*FLY, "--wake-scheme", "pcc", "--inflow", "dynamic"], "--wake-scheme"),
+        ([*FLY, "--wake", "core_raduis=0.03"], "nearest: core_radius"),
+        ([*FLY, "--wake", "colour=blue"], "allowed: turns, azimuth_step"),
+        ([*FLY, "--wake", "core_radius=0.5"], "core_radius = 0.5: must be a number between 0 and 0.2"),
+        ([*FLY, "--wake", "n_stations=20.5"], "must be a whole number between 5 and 200"),
+        ([*FLY, "--wake", "near_wake_angle=30"], "near_wake_angle"),
+        ([*FLY, "--wake", "rates=perhaps"], "allowed: true, false"),
+        ([*FLY, "--wake", "trailers=all"], "allowed: tip, full-span"),
+        ([*FLY, "--wake", "turns=3", "--wake-turns", "4"], "turns is given twice"),
+        ([*FLY, "--wake", "turns=3", "--wake", "turns=4"], "turns is given twice"),
+        ([*FLY, "--wake", "best"], "allowed: standard, paper, reference"),
+        ([*FLY, "--wake", "paper", "--wake", "standard"], "one preset at a time"),
+        ([*FLY, "--wake", "scheme=pcc", "--inflow", "relaxation"], "not an option of relaxation inflow"),
+        ([*FLY, "--wake", "tip_loss=none"], "not an option of time-marching inflow"),
+        (["trim", "--wake", "far_wake=cylinder", "--wake", "inboard_wake=sheet"], "far_wake"),
+        (["tunnel", "--wake", "turns=2.01"], "turns"),
+        (["compare", "arrested-descent", "--wake", "colour=blue"], "colour"),
+        ([*CONVERGE, "modes", "--values", "3, 4", "--wake", "rotor=1"], "rotor"),
         ([*FLY, "--integrator", "rk4"], "integrator"),
         ([*FLY, "--revolutions", "0"], "revolutions"),
         ([*FLY, "--revolutions", "many"], "revolutions"),
@@ -150,7 +168,7 @@ def test_a_checked_request_is_handed_on(monkeypatch, tmp_path):
     def record(request, revolutions, integrator, out, progress):
         seen.update(request=request, revolutions=revolutions, integrator=integrator, out=out)
 
-    monkeypatch.setattr(cli, "_fly_once", record)
+    monkeypatch.setattr(outcome, "fly_once", record)
     typed = ["--speed", "60 kt", "--revolutions", "2", "--azimuth-step", "5 deg", "--wake-turns", "3"]
     with pytest.raises(SystemExit) as caught:
         cli.main([*FLY, *typed, "--wake-scheme", "pc2b", "--out", str(tmp_path / "a" / "b")])
@@ -177,7 +195,7 @@ def test_errors_become_one_line_and_their_exit_code(capsys, monkeypatch, error, 
     def fail(*_args):
         raise error
 
-    monkeypatch.setattr(cli, "_fly_once", fail)
+    monkeypatch.setattr(outcome, "fly_once", fail)
     found, _, err = _run(capsys, FLY)
     assert found == code
     assert err.strip().splitlines()[-1].startswith("wakeflight: ")
@@ -191,7 +209,7 @@ def test_a_failed_flight_is_saved_before_exit_code_3(monkeypatch, tmp_path):
         failure = "flight: no step possible at 1.2 s"
 
     monkeypatch.undo()
-    monkeypatch.setattr(cli, "_save", lambda flight, out, progress: saved.append(out))
+    monkeypatch.setattr(outcome, "save_flight", lambda flight, out, progress: saved.append(out))
     monkeypatch.setitem(sys.modules, "wakeflight.trim", _module(trim=lambda *a, **k: "start"))
     monkeypatch.setitem(sys.modules, "wakeflight.flight", _module(fly=lambda *a, **k: Flight()))
     with pytest.raises(SystemExit) as caught:
@@ -218,6 +236,33 @@ def test_help_needs_no_heavy_import():
     assert done.returncode == 0, done.stderr
     for command in ("fly", "compare", "trim", "modes", "tunnel", "report", "validate", "converge", "paper"):
         assert command in done.stdout
+
+
+VEHICLE = ["aircraft", "loading", "condition"]
+STRAIGHT = ["speed", "flight-path", "altitude", "weight"]
+CONDITION = [*STRAIGHT, "sideslip", "turn-rate", "bank"]
+WAKE = ["azimuth-step", "wake-turns", "wake-scheme"]
+RUN = ["threads", "out"]
+
+
+@pytest.mark.parametrize(
+    ("command", "names"),
+    [
+        ("fly", ["inflow", *VEHICLE, *CONDITION, "revolutions", *WAKE, "integrator", "blades", *RUN]),
+        ("compare", [*VEHICLE, *STRAIGHT, "revolutions", *WAKE, "integrator", *RUN]),
+        ("trim", ["inflow", *VEHICLE, *CONDITION, *WAKE, "blades", *RUN]),
+        ("modes", ["aircraft", "modes", "out"]),
+        ("report", ["out"]),
+        ("validate", ["cases", "fast", *RUN]),
+        ("paper", ["redraw", "studies", "jobs", "out"]),
+    ],
+)
+def test_the_options_of_a_command_stand_in_their_order(command, names):
+    from typer.testing import CliRunner
+
+    shown = CliRunner().invoke(cli.app, [command, "--help"], env={"COLUMNS": "200"}).output
+    found = [line.split()[0].removeprefix("--") for line in shown.splitlines() if line.strip().startswith("--")]
+    assert [name for name in found if name in names] == names
 
 
 def test_importing_the_package_imports_nothing_heavy():
@@ -261,5 +306,5 @@ def test_what_a_verb_had_computed_is_saved_where_it_fails():
 
     for partial in ("half", None):
         with pytest.raises(NumericalFailure):
-            cli._keeping(fails, saved.append)(partial)
+            outcome.keeping(fails, saved.append)(partial)
     assert saved == ["half"]

@@ -1,11 +1,12 @@
 //! Fixed-step integration and the exchange with the time-marching wake: conversions only, the GIL released.
 
 use crate::aircraft::{PyAircraft, PyInputs};
+use crate::options::marching_options;
 use crate::rotor::motion;
-use crate::stand::{PyStand, hub_state};
+use crate::stand::{PyStand, hub_motion, hub_state};
 use crate::wake::{
-    RelaxationWake, TimeMarchingWake as PyTimeMarchingWake, flat, marched_lattice, matrix, parse_options,
-    py_error, tip_circulation, tip_core, vectors,
+    RelaxationWake, TimeMarchingWake as PyTimeMarchingWake, flat, marched_lattice, matrix, py_error,
+    tip_circulation, tip_core, vectors,
 };
 use numpy::{
     IntoPyArray, PyArray1, PyArray2, PyArray3, PyArray4, PyReadonlyArray1, PyReadonlyArray2,
@@ -21,9 +22,8 @@ use wakeflight::integrate::explicit::{ExplicitFailure, ExplicitStep};
 use wakeflight::integrate::fixed::{Counters, FixedStep, StepFailure};
 use wakeflight::integrate::linearised::Linearised;
 use wakeflight::rotor::circulation::BladeInstant;
-use wakeflight::rotor::exchange::{ExchangeOptions, MarchingExchange};
+use wakeflight::rotor::exchange::MarchingExchange;
 use wakeflight::rotor::hub::Rotor;
-use wakeflight::rotor::swashplate::MovingPitch;
 use wakeflight::system::instant::Instant;
 use wakeflight::wake::TimeMarchingWake;
 
@@ -227,7 +227,7 @@ impl Core<'_> {
     fn rotor(&self) -> (&Rotor, Air) {
         match self {
             Self::Aircraft(a) => (a.inner.main(), a.inner.air),
-            Self::Stand(s) => (&s.inner.rotor, s.inner.air),
+            Self::Stand(s) => (s.inner.main(), s.inner.air),
         }
     }
 
@@ -236,7 +236,7 @@ impl Core<'_> {
             Self::Aircraft(a) => Ok(a.inner.hub_motion(0, y, &vec![0.0; y.len()])),
             Self::Stand(s) => {
                 let (velocity, rates) = hub_state(y)?;
-                Ok(s.inner.hub(velocity, rates))
+                Ok(hub_motion(&s.inner, velocity, rates))
             }
         }
     }
@@ -263,9 +263,9 @@ impl Core<'_> {
                 a.inner.main().blade_pitch(controls, rate.try_into().map_err(|_| wrong())?, psi).into()
             }
             Self::Stand(s) => {
-                let controls = stick.try_into().map_err(|_| wrong())?;
-                let rates = rate.try_into().map_err(|_| wrong())?;
-                MovingPitch { controls, rates, higher: &s.higher }.at(0.0, psi, s.inner.rotor.omega).into()
+                let [a, b, c]: [f64; 3] = stick.try_into().map_err(|_| wrong())?;
+                let [d, e, f]: [f64; 3] = rate.try_into().map_err(|_| wrong())?;
+                s.inner.main().blade_pitch([a, b, c, 0.0], [d, e, f, 0.0], psi).into()
             }
         };
         Ok(BladeInstant { psi, modal, control })
@@ -292,17 +292,12 @@ impl PyMarchingExchange {
         lambda_far: PyReadonlyArray2<f64>,
         circulation: PyReadonlyArray2<f64>,
         inflow: PyReadonlyArray2<f64>,
-        recorrect: usize,
-        extrapolate: bool,
     ) -> PyResult<Self> {
-        let options = parse_options(options_json)?;
-        let mut wake = TimeMarchingWake::from_relaxation(&relaxation.inner, 0).map_err(py_error)?;
-        wake.set_scheme(options.scheme, options.predictor, options.time_filter).map_err(py_error)?;
-        wake.set_evaluation(options.evaluation);
-        let exchange = ExchangeOptions { recorrect, extrapolate };
+        let own = marching_options(options_json, relaxation.inner.options())?;
+        let wake = TimeMarchingWake::from_relaxation(&relaxation.inner, 0, own).map_err(py_error)?;
         let start = [lambda_far, circulation, inflow].map(|a| flat(&a));
         let [far, gamma, total] = start;
-        Ok(Self { inner: MarchingExchange::new(wake, exchange, far, gamma, total) })
+        Ok(Self { inner: MarchingExchange::new(wake, far, gamma, total) })
     }
 
     /// Mean induced inflow, over the tip speed, that carries the inboard sheet in the steps that follow.
@@ -330,7 +325,7 @@ impl PyMarchingExchange {
     ) -> PyResult<Report> {
         let (y, (rotor, air)) = (y.as_slice()?, core.rotor());
         let hub = core.hub(y)?;
-        let n = self.inner.wake.options().steps_per_revolution;
+        let n = self.inner.wake.options().steps_per_revolution();
         let mut blades = Vec::with_capacity(rotor.n_blades);
         for b in 0..rotor.n_blades {
             let psi = TAU * ((index + b * n / rotor.n_blades) % n) as f64 / n as f64;
@@ -350,22 +345,22 @@ impl PyMarchingExchange {
 
     /// Total inflow held over the next step (n_blades, n_stations), of thin sections at both lines of the chord.
     fn inflow<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        matrix(py, self.inner.inflow.clone(), self.inner.wake.options().n_blades)
+        matrix(py, self.inner.inflow.clone(), self.inner.wake.options().rotor.n_blades)
     }
 
     /// Bound circulation (n_blades, n_stations) [m2/s].
     fn circulation<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        matrix(py, self.inner.circulation.clone(), self.inner.wake.options().n_blades)
+        matrix(py, self.inner.circulation.clone(), self.inner.wake.options().rotor.n_blades)
     }
 
     /// Inflow without that of the own near wake (n_blades, n_stations).
     fn lambda_far<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        matrix(py, self.inner.lambda_far.clone(), self.inner.wake.options().n_blades)
+        matrix(py, self.inner.lambda_far.clone(), self.inner.wake.options().rotor.n_blades)
     }
 
     /// Markers (n_blades, n_segments + 1, 3) [m].
     fn position<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
-        vectors(py, &self.inner.wake.tip_position(), self.inner.wake.options().n_blades)
+        vectors(py, &self.inner.wake.tip_position(), self.inner.wake.options().rotor.n_blades)
     }
 
     /// Circulation of the markers (n_blades, n_segments + 1) [m2/s].
@@ -385,7 +380,7 @@ impl PyMarchingExchange {
 
     /// Circulation of the markers, trailer after trailer (n_blades, n_trailers (n_segments + 1)) [m2/s].
     fn lattice_circulation<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        matrix(py, self.inner.wake.marker_circulation().to_vec(), self.inner.wake.options().n_blades)
+        matrix(py, self.inner.wake.marker_circulation().to_vec(), self.inner.wake.options().rotor.n_blades)
     }
 
     /// Segment evaluations so far.

@@ -6,8 +6,10 @@ mod atmosphere;
 mod blade;
 mod flight;
 mod inflow;
+mod options;
 mod rotor;
 mod stand;
+mod trim;
 mod vortex;
 mod wake;
 
@@ -20,7 +22,9 @@ fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
     blade::register(m)?;
     flight::register(m)?;
     stand::register(m)?;
+    trim::register(m)?;
     inflow::register(m)?;
+    options::register(m)?;
     vortex::register(m)?;
     wake::register(m)?;
     Ok(())

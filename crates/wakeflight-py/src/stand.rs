@@ -1,81 +1,42 @@
 //! The isolated rotor on a stand: conversions only.
 
+use crate::aircraft::invalid;
 use crate::rotor::{motion, rotor_constants};
+use crate::trim::{self, PyTrimLayout, PyTrimProblem};
 use numpy::ndarray::Array;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
-use pyo3::exceptions::{PyArithmeticError, PyValueError};
+use pyo3::exceptions::PyArithmeticError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use std::f64::consts::TAU;
 use wakeflight::blade::aerodynamics::{Air, SectionAir};
 use wakeflight::blade::kinematics::ModalMotion;
 use wakeflight::blade::loads::{BladeInflow, HubMotion};
 use wakeflight::blade::model::Discretisation;
-use wakeflight::blade::thin_section::{SectionLift, ThinSection};
-use wakeflight::inflow::pitt_peters::{MassFlow, PittPeters};
+use wakeflight::blade::thin_section::SectionLift;
+use wakeflight::inflow::pitt_peters::MassFlow;
 use wakeflight::integrate::stand::BladeStep;
 use wakeflight::rotor::circulation::BladeInstant;
 use wakeflight::rotor::data::RotorData;
-use wakeflight::rotor::hub::Rotor;
-use wakeflight::rotor::stand::{ControlEquation, Stand, StandInflow, StandProblem};
-use wakeflight::rotor::swashplate::{MovingPitch, PitchHarmonic, Rigging};
-use wakeflight::wake::WakeOptions;
-
-fn invalid(error: impl std::fmt::Display) -> PyErr {
-    PyValueError::new_err(error.to_string())
-}
-
-fn equation(name: &str, value: f64) -> PyResult<ControlEquation> {
-    Ok(match name {
-        "collective" => ControlEquation::Collective(value),
-        "lateral_cyclic" => ControlEquation::LateralCyclic(value),
-        "longitudinal_cyclic" => ControlEquation::LongitudinalCyclic(value),
-        "thrust" => ControlEquation::Thrust(value),
-        "torque" => ControlEquation::Torque(value),
-        "beta_1c" => ControlEquation::FlapCosine(value),
-        "beta_1s" => ControlEquation::FlapSine(value),
-        "hub_roll" => ControlEquation::HubRoll(value),
-        "hub_pitch" => ControlEquation::HubPitch(value),
-        other => return Err(invalid(format!("control equation '{other}' is unknown"))),
-    })
-}
-
-/// A steady condition on the stand; see `wakeflight.tunnel`.
-#[pyclass(name = "StandProblem", frozen)]
-pub struct PyStandProblem(StandProblem);
-
-#[pymethods]
-impl PyStandProblem {
-    /// Three `controls` (name, value in SI), `higher` (order, cosine, sine [rad]); inflow (n_azimuths, n_stations) or None.
-    #[new]
-    #[allow(clippy::too_many_arguments, reason = "the fields of the problem")]
-    fn new(
-        velocity: [f64; 3],
-        rates: [f64; 3],
-        controls: [(String, f64); 3],
-        higher: Vec<(usize, f64, f64)>,
-        n_harmonics: usize,
-        n_azimuths: usize,
-        inflow: Option<PyReadonlyArray2<f64>>,
-    ) -> PyResult<Self> {
-        let [a, b, c] = controls;
-        let controls = [equation(&a.0, a.1)?, equation(&b.0, b.1)?, equation(&c.0, c.1)?];
-        let higher =
-            higher.into_iter().map(|(order, cosine, sine)| PitchHarmonic { order, cosine, sine }).collect();
-        let inflow = match inflow {
-            None => StandInflow::Dynamic,
-            Some(map) => StandInflow::Map(map.as_array().iter().copied().collect()),
-        };
-        Ok(Self(StandProblem { velocity, rates, controls, higher, n_harmonics, n_azimuths, inflow }))
-    }
-}
+use wakeflight::rotor::swashplate::{PitchHarmonic, Rigging};
+use wakeflight::system::carrier::{Carrier, Stand};
+use wakeflight::system::model::{Setting, System};
+use wakeflight::trim::residual::Trim;
 
 /// Rotor of one condition on the stand. Names of the methods it shares with `Aircraft` are the same; y is hub velocity
 /// and rates (6), a stick is theta_0, theta_1c, theta_1s.
 #[pyclass(name = "Stand", frozen)]
 pub struct PyStand {
-    pub(crate) inner: Stand,
-    pub(crate) higher: Vec<PitchHarmonic>,
+    pub(crate) inner: System,
+}
+
+fn four([a, b, c]: [f64; 3]) -> [f64; 4] {
+    [a, b, c, 0.0]
+}
+
+/// Motion of a hub that goes steadily at a velocity [m/s] and rates [rad/s], hub axes, with the weight of `system`.
+pub(crate) fn hub_motion(system: &System, velocity: [f64; 3], rates: [f64; 3]) -> HubMotion<f64> {
+    let carrier = Carrier::Stand(Stand { velocity, rates });
+    carrier.hub_motion(system.main(), &[], &[], system.gravity)
 }
 
 pub(crate) fn hub_state(y: &[f64]) -> PyResult<([f64; 3], [f64; 3])> {
@@ -89,7 +50,7 @@ pub(crate) fn hub_state(y: &[f64]) -> PyResult<([f64; 3], [f64; 3])> {
 impl PyStand {
     /// From the JSON of the rotor data, air, weight, discretisation; `free_wake` switches the tip loss off, `thin_sections`
     /// (with or without the Prandtl-Glauert factor) makes the blade a Weissinger one, `windmill` has dynamic inflow take the
-    /// windmill brake state in descent.
+    /// windmill brake state in descent; velocity [m/s] and rates [rad/s] of the hub through the air, hub axes.
     #[new]
     #[allow(clippy::too_many_arguments, reason = "the fields of the discretisation")]
     fn new(
@@ -106,12 +67,11 @@ impl PyStand {
         higher: Vec<(usize, f64, f64)>,
         blade_model: &str,
         windmill: bool,
+        velocity: [f64; 3],
+        rates: [f64; 3],
     ) -> PyResult<Self> {
         let data: RotorData = serde_json::from_str(data_json).map_err(invalid)?;
         let discretisation = Discretisation { n_elements, n_modes, n_gauss, n_stations, reference_pitch };
-        let rigging = Rigging { matrix: [[0.0; 4]; 4], offset: [0.0; 4], phase: 0.0 };
-        let tip_loss_factor = if free_wake { 1.0 } else { data.tip_loss_factor };
-        let mut rotor = Rotor::new(&data, rigging, tip_loss_factor, &discretisation).map_err(invalid)?;
         let lift = match blade_model {
             "lifting-line" => None,
             "second-order" => Some(SectionLift::Tables),
@@ -119,95 +79,70 @@ impl PyStand {
             "weissinger-incompressible" => Some(SectionLift::Tangency { prandtl_glauert: false }),
             other => return Err(invalid(format!("blade_model = {other}: not a model of the blade"))),
         };
-        rotor.thin = lift.map(|lift| ThinSection::of(&data.airfoil, lift));
-        let air = Air { density, speed_of_sound };
         let mass_flow = if windmill { MassFlow::WindmillBrake } else { MassFlow::Momentum };
-        let pitt_peters = PittPeters { mass_flow, ..PittPeters::default() };
-        let inner = Stand { rotor, air, gravity, pitt_peters };
-        let higher =
+        let air = Air { density, speed_of_sound };
+        let setting = Setting { air, gravity, free_wake, discretisation, lift, mass_flow };
+        let mut rotor = setting.rotor(&data, &Rigging::direct()).map_err(invalid)?;
+        rotor.higher =
             higher.into_iter().map(|(order, cosine, sine)| PitchHarmonic { order, cosine, sine }).collect();
-        Ok(Self { inner, higher })
+        Ok(Self { inner: System::on_stand(Stand { velocity, rates }, vec![rotor], &setting) })
     }
 
     /// Constants of the rotor that the coupling and the results need.
     fn rotor<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let d = rotor_constants(py, &self.inner.rotor)?;
-        d.set_item("solidity", self.inner.solidity())?;
+        let d = rotor_constants(py, &self.inner.main())?;
+        d.set_item("solidity", self.inner.main().solidity())?;
         Ok(d)
     }
 
-    /// Names of the equations.
-    fn trim_equations(&self, problem: &PyStandProblem) -> Vec<String> {
-        self.inner.equations(&problem.0)
+    /// Layout of the unknowns and equations of a trim.
+    fn trim_layout(&self, problem: &PyTrimProblem) -> PyResult<PyTrimLayout> {
+        trim::layout(&self.inner, problem)
     }
 
-    /// Index of the first unknown of every mode (and one past the last), and of the inflow.
-    fn trim_layout(&self, problem: &PyStandProblem) -> (Vec<usize>, usize) {
-        let l = self.inner.layout(&problem.0);
-        let h = l.harmonics();
-        ((0..=h.n_modes).map(|i| h.mode(i)).collect(), l.inflow())
-    }
-
-    /// Residual of the equations.
+    /// Residual of the trim equations.
     fn trim_residual<'py>(
         &self,
         py: Python<'py>,
-        problem: &PyStandProblem,
+        problem: &PyTrimProblem,
         x: PyReadonlyArray1<f64>,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        let x = self.unknowns(problem, &x)?;
-        let mut f = vec![0.0; x.len()];
-        py.detach(|| self.inner.residual(&problem.0, &x, &mut f));
-        Ok(f.into_pyarray(py))
+        trim::residual(py, &self.inner, problem, &x)
     }
 
-    /// Exact Jacobian (n, n).
+    /// Exact Jacobian of the trim equations (n, n).
     fn trim_jacobian<'py>(
         &self,
         py: Python<'py>,
-        problem: &PyStandProblem,
+        problem: &PyTrimProblem,
         x: PyReadonlyArray1<f64>,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let x = self.unknowns(problem, &x)?;
-        let n = x.len();
-        let mut j = vec![0.0; n * n];
-        py.detach(|| self.inner.jacobian(&problem.0, &x, &mut j));
-        Ok(Array::from_shape_vec((n, n), j).map_err(invalid)?.into_pyarray(py))
-    }
-
-    /// Hub motion of the problem (6): what the exchange calls the state. The motion is steady: there is no rate.
-    fn trim_state<'py>(
-        &self,
-        py: Python<'py>,
-        problem: &PyStandProblem,
-        x: PyReadonlyArray1<f64>,
-        t: f64,
-    ) -> (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>) {
-        let _ = (x, t);
-        let y: Vec<f64> = problem.0.velocity.iter().chain(&problem.0.rates).copied().collect();
-        (y.into_pyarray(py), vec![0.0; 6].into_pyarray(py))
+        trim::jacobian(py, &self.inner, problem, &x)
     }
 
     /// Modal coordinates and rates (n_azimuths, n_modes) of the periodic motion.
     fn trim_motion<'py>(
         &self,
         py: Python<'py>,
-        problem: &PyStandProblem,
+        problem: &PyTrimProblem,
         x: PyReadonlyArray1<f64>,
         n_azimuths: usize,
-    ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>)> {
-        let x = self.unknowns(problem, &x)?;
-        let h = self.inner.layout(&problem.0).harmonics();
-        let n = h.n_modes;
-        let (mut q, mut q_dot) = (Vec::new(), Vec::new());
-        for k in 0..n_azimuths {
-            let psi = TAU * k as f64 / n_azimuths as f64;
-            let m = h.motion(&x, psi, self.inner.rotor.omega);
-            q.extend_from_slice(&m.q[..n]);
-            q_dot.extend_from_slice(&m.q_dot[..n]);
-        }
-        let shape = |v| Array::from_shape_vec((n_azimuths, n), v).map_err(invalid);
-        Ok((shape(q)?.into_pyarray(py), shape(q_dot)?.into_pyarray(py)))
+    ) -> PyResult<trim::Motion<'py>> {
+        trim::motion(py, &self.inner, problem, &x, n_azimuths)
+    }
+
+    /// Hub motion (6): what the exchange calls the state. The motion is steady: there is no rate.
+    fn trim_state<'py>(
+        &self,
+        py: Python<'py>,
+        problem: &PyTrimProblem,
+        x: PyReadonlyArray1<f64>,
+        t: f64,
+    ) -> (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>) {
+        let _ = (problem, x, t);
+        let (velocity, rates) = self.motion();
+        let y = [velocity, rates].concat();
+        (y.into_pyarray(py), vec![0.0; 6].into_pyarray(py))
     }
 
     /// Hub velocity [m/s] and rates [rad/s] of y.
@@ -226,7 +161,7 @@ impl PyStand {
             .as_array()
             .rows()
             .into_iter()
-            .map(|row| self.inner.rotor.equivalent_angles(&motion(row.iter().copied(), std::iter::empty())))
+            .map(|row| self.inner.main().equivalent_angles(&motion(row.iter().copied(), std::iter::empty())))
             .unzip();
         (flap.into_pyarray(py), lead.into_pyarray(py))
     }
@@ -248,9 +183,9 @@ impl PyStand {
         start: PyReadonlyArray2<f64>,
     ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>, f64, usize)> {
         let _ = stick_rate;
-        let options: WakeOptions = serde_json::from_str(wake_options).map_err(invalid)?;
+        let options = crate::options::wake_options(wake_options)?;
         let (velocity, rates) = hub_state(y.as_slice()?)?;
-        let hub = self.inner.hub(velocity, rates);
+        let hub = hub_motion(&self.inner, velocity, rates);
         let (q, q_dot) = (q.as_array(), q_dot.as_array());
         let instants: Vec<BladeInstant> = psi
             .as_slice()?
@@ -259,15 +194,17 @@ impl PyStand {
             .map(|(i, &psi)| BladeInstant {
                 psi,
                 modal: motion(q.row(i).iter().copied(), q_dot.row(i).iter().copied()),
-                control: self.inner.pitch(stick, &self.higher, psi),
+                control: self.inner.main().blade_pitch(four(stick), [0.0; 4], psi).into(),
             })
             .collect();
         let far: Vec<f64> = lambda_far.as_array().iter().copied().collect();
         let start: Vec<f64> = start.as_array().iter().copied().collect();
         let all = py
-            .detach(|| self.inner.rotor.circulations(self.inner.air, &options, &hub, &instants, &far, &start))
-            .map_err(|e| PyArithmeticError::new_err(e.to_string()))?;
-        let (n, width) = (self.inner.rotor.blade.stations.len(), self.inner.rotor.inflow_width());
+            .detach(|| {
+                self.inner.main().circulations(self.inner.air, &options, &hub, &instants, &far, &start)
+            })
+            .map_err(crate::wake::py_error)?;
+        let (n, width) = (self.inner.main().blade.stations.len(), self.inner.main().inflow_width());
         let shape = |m, v| Array::from_shape_vec((instants.len(), m), v).map_err(invalid);
         let (gamma, inflow) = (shape(n, all.gamma)?, shape(width, all.inflow)?);
         Ok((gamma.into_pyarray(py), inflow.into_pyarray(py), all.residual, all.followed))
@@ -286,15 +223,15 @@ impl PyStand {
         q_dot: PyReadonlyArray1<f64>,
         inflow: PyReadonlyArray1<f64>,
     ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>)> {
-        let hub = self.inner.hub(hub_velocity, hub_rates);
+        let hub = hub_motion(&self.inner, hub_velocity, hub_rates);
         let blade = BladeInstant {
             psi,
             modal: motion(q.as_slice()?.iter().copied(), q_dot.as_slice()?.iter().copied()),
-            control: self.inner.pitch(stick, &self.higher, psi),
+            control: self.inner.main().blade_pitch(four(stick), [0.0; 4], psi).into(),
         };
         let lambda = inflow.as_slice()?;
         let (mut gamma, mut slope) = (vec![0.0; lambda.len()], vec![0.0; lambda.len()]);
-        self.inner.rotor.section_circulation(self.inner.air, &hub, &blade, lambda, &mut gamma, &mut slope);
+        self.inner.main().section_circulation(self.inner.air, &hub, &blade, lambda, &mut gamma, &mut slope);
         Ok((gamma.into_pyarray(py), slope.into_pyarray(py)))
     }
 
@@ -303,31 +240,34 @@ impl PyStand {
     fn passages<'py>(
         &self,
         py: Python<'py>,
-        problem: &PyStandProblem,
+        problem: &PyTrimProblem,
         x: PyReadonlyArray1<f64>,
         psi: PyReadonlyArray1<f64>,
         inflow: Option<PyReadonlyArray2<f64>>,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let x = self.unknowns(problem, &x)?;
+        let trim = Trim::new(&self.inner, &problem.0).map_err(invalid)?;
+        let x = trim.checked(x.as_slice()?).map_err(invalid)?;
         let stand = &self.inner;
         let psi = psi.as_slice()?;
-        let n = stand.rotor.blade.stations.len();
+        let n = stand.main().blade.stations.len();
         let held: Option<Vec<f64>> = inflow.map(|map| map.as_array().iter().copied().collect());
         let width = held.as_ref().map_or(n, |map| map.len() / psi.len().max(1));
         if held.as_ref().is_some_and(|map| map.len() != psi.len() * width) || !self.fits(width) {
             return Err(invalid(format!("inflow must have the shape ({}, {n})", psi.len())));
         }
-        if held.is_none() && matches!(problem.0.inflow, StandInflow::Map(_)) {
+        if held.is_none() && !problem.0.is_dynamic() {
             return Err(invalid("inflow is needed: the problem has none of its own"));
         }
-        let i = stand.layout(&problem.0).inflow();
-        let hub = stand.hub(problem.0.velocity, problem.0.rates);
+        let head = trim.layout.head(x);
+        let (velocity, rates) = self.motion();
+        let hub = hub_motion(stand, velocity, rates);
         let passages = psi.iter().enumerate().map(|(row, &azimuth)| {
             let given = match &held {
-                Some(map) => stand.rotor.held_inflow(&map[row * width..(row + 1) * width]),
-                None => BladeInflow::Disk([x[i], x[i + 1], x[i + 2]]),
+                Some(map) => stand.main().held_inflow(&map[row * width..(row + 1) * width]),
+                None => BladeInflow::Disk(head.inflow),
             };
-            (stand.instant(&problem.0, &x, azimuth), given)
+            let control = stand.main().blade_pitch(head.controls, [0.0; 4], azimuth).into();
+            (BladeInstant { psi: azimuth, modal: trim.motion(x, azimuth), control }, given)
         });
         self.loads(py, &hub, passages)
     }
@@ -349,14 +289,13 @@ impl PyStand {
         let psi = psi.as_slice()?;
         let motions = self.motions(&motion, psi.len())?;
         let map = self.rows_of_inflow(&inflow, psi.len())?;
-        let width = self.inner.rotor.inflow_width();
-        let pitch = MovingPitch { controls, rates: control_rates, higher: &self.higher };
+        let width = self.inner.main().inflow_width();
         let passages = psi.iter().zip(motions).enumerate().map(|(row, (&psi, modal))| {
-            let control = pitch.at(0.0, psi, self.inner.rotor.omega).into();
-            let given = self.inner.rotor.held_inflow(&map[row * width..(row + 1) * width]);
+            let control = self.inner.main().blade_pitch(four(controls), four(control_rates), psi).into();
+            let given = self.inner.main().held_inflow(&map[row * width..(row + 1) * width]);
             (BladeInstant { psi, modal, control }, given)
         });
-        self.loads(py, &self.inner.hub(velocity, rates), passages)
+        self.loads(py, &hub_motion(&self.inner, velocity, rates), passages)
     }
 
     /// Blades (m) after a step of time [s]: modal coordinates, rates and accelerations (m, n_modes); azimuths `psi` and
@@ -374,22 +313,23 @@ impl PyStand {
         step: f64,
     ) -> PyResult<[Bound<'py, PyArray2<f64>>; 3]> {
         let (velocity, rates) = hub_state(y.as_slice()?)?;
-        let hub = self.inner.hub(velocity, rates);
+        let hub = hub_motion(&self.inner, velocity, rates);
         let psi = psi.as_slice()?.to_vec();
         let motions = self.motions(&motion, psi.len())?;
         let map = self.rows_of_inflow(&inflow, psi.len())?;
-        let width = self.inner.rotor.inflow_width();
-        let pitch = MovingPitch { controls, rates: control_rates, higher: &self.higher };
+        let width = self.inner.main().inflow_width();
+        let controls = [four(controls), four(control_rates)];
+        let (rotor, air) = (self.inner.main(), self.inner.air);
         let advanced: Vec<ModalMotion<f64>> = py
             .detach(|| {
                 let each = psi.iter().zip(motions).zip(map.chunks_exact(width));
                 each.map(|((&psi, motion), inflow)| {
-                    BladeStep { stand: &self.inner, hub: &hub, psi, motion, pitch, inflow, step }.advanced()
+                    BladeStep { rotor, air, hub: &hub, psi, motion, controls, inflow, step }.advanced()
                 })
                 .collect::<Result<_, _>>()
             })
             .map_err(|e| PyArithmeticError::new_err(e.to_string()))?;
-        let n = self.inner.rotor.blade.n_modes;
+        let n = self.inner.main().blade.n_modes;
         let gathered = |part: fn(&ModalMotion<f64>) -> &[f64]| {
             let values: Vec<f64> = advanced.iter().flat_map(|m| part(m)[..n].iter().copied()).collect();
             Array::from_shape_vec((psi.len(), n), values).map_err(invalid).map(|a| a.into_pyarray(py))
@@ -417,7 +357,7 @@ impl PyStand {
         for (blade, given) in passages {
             rows += 1;
             let (air, psi) = (stand.air, blade.psi);
-            let b = stand.rotor.blade_loads(air, hub, psi, &blade.modal, &blade.control, &given);
+            let b = stand.main().blade_loads(air, hub, psi, &blade.modal, &blade.control, &given);
             for (all, one) in loads.iter_mut().zip([b.force, b.moment, b.aero_force, b.aero_moment]) {
                 all.extend(one.array());
             }
@@ -428,7 +368,7 @@ impl PyStand {
                     field.push(value);
                 }
             };
-            stand.rotor.blade_air(air, hub, psi, &blade.modal, &blade.control, &given, visit);
+            stand.main().blade_air(air, hub, psi, &blade.modal, &blade.control, &given, visit);
         }
         let d = PyDict::new(py);
         let shape = |m, v| Array::from_shape_vec((rows, m), v).map_err(invalid);
@@ -436,7 +376,7 @@ impl PyStand {
             d.set_item(name, shape(3, values)?.into_pyarray(py))?;
         }
         for (name, values) in FIELDS.into_iter().zip(fields) {
-            d.set_item(name, shape(stand.rotor.blade.stations.len(), values)?.into_pyarray(py))?;
+            d.set_item(name, shape(stand.main().blade.stations.len(), values)?.into_pyarray(py))?;
         }
         Ok(d)
     }
@@ -444,7 +384,7 @@ impl PyStand {
     /// Motions of `m` blades.
     fn motions(&self, given: &Motion, m: usize) -> PyResult<Vec<ModalMotion<f64>>> {
         let (q, q_dot, q_ddot) = (given.0.as_array(), given.1.as_array(), given.2.as_array());
-        let n = self.inner.rotor.blade.n_modes;
+        let n = self.inner.main().blade.n_modes;
         if [q.dim(), q_dot.dim(), q_ddot.dim()].iter().any(|&d| d != (m, n)) {
             return Err(invalid(format!("motion must have the shape ({m}, {n}) three times")));
         }
@@ -458,7 +398,7 @@ impl PyStand {
 
     /// Held inflow of `m` blades, row by row.
     fn rows_of_inflow(&self, inflow: &PyReadonlyArray2<f64>, m: usize) -> PyResult<Vec<f64>> {
-        let (map, width) = (inflow.as_array(), self.inner.rotor.inflow_width());
+        let (map, width) = (inflow.as_array(), self.inner.main().inflow_width());
         if map.dim() != (m, width) {
             return Err(invalid(format!("inflow must have the shape ({m}, {width})")));
         }
@@ -467,28 +407,22 @@ impl PyStand {
 }
 
 impl PyStand {
-    /// Whether a row of inflow may have this length: one value per station, or two with thin sections.
-    fn fits(&self, width: usize) -> bool {
-        let n = self.inner.rotor.blade.stations.len();
-        width == n || (width == 2 * n && self.inner.rotor.thin.is_some())
+    /// Velocity [m/s] and rates [rad/s] of the hub.
+    fn motion(&self) -> ([f64; 3], [f64; 3]) {
+        match self.inner.carrier {
+            Carrier::Stand(Stand { velocity, rates }) => (velocity, rates),
+            Carrier::Airframe(_) => ([0.0; 3], [0.0; 3]),
+        }
     }
 
-    /// The unknowns, of the right number.
-    fn unknowns(&self, problem: &PyStandProblem, x: &PyReadonlyArray1<f64>) -> PyResult<Vec<f64>> {
-        let n = self.inner.layout(&problem.0).len();
-        if let StandInflow::Map(map) = &problem.0.inflow {
-            let width = map.len() / problem.0.n_azimuths;
-            if !self.fits(width) || map.len() != width * problem.0.n_azimuths {
-                return Err(invalid(format!("inflow map has {} values for each azimuth", width)));
-            }
-        }
-        let x = x.as_slice()?.to_vec();
-        if x.len() != n { Err(invalid(format!("{} unknowns, {n} needed", x.len()))) } else { Ok(x) }
+    /// Whether a row of inflow may have this length: one value per station, or two with thin sections.
+    fn fits(&self, width: usize) -> bool {
+        let n = self.inner.main().blade.stations.len();
+        width == n || (width == 2 * n && self.inner.main().thin.is_some())
     }
 }
 
 /// Registers the classes of this file.
 pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
-    m.add_class::<PyStand>()?;
-    m.add_class::<PyStandProblem>()
+    m.add_class::<PyStand>()
 }

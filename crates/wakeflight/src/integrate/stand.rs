@@ -2,12 +2,12 @@
 
 use super::radau::{Radau, STAGES};
 use crate::blade::MAX_MODES;
+use crate::blade::aerodynamics::Air;
 use crate::blade::kinematics::{ModalMotion, PitchMotion};
 use crate::blade::loads::HubMotion;
 use crate::numerics::jacobian::dense_jacobian;
 use crate::numerics::scalar::Real;
-use crate::rotor::stand::Stand;
-use crate::rotor::swashplate::MovingPitch;
+use crate::rotor::hub::Rotor;
 use nalgebra::{DMatrix, DVector};
 use thiserror::Error;
 
@@ -27,16 +27,18 @@ pub struct BladeStepFailure {
 /// A blade at the start of a step and what acts on it.
 #[derive(Clone, Copy, Debug)]
 pub struct BladeStep<'a> {
-    /// The stand.
-    pub stand: &'a Stand,
+    /// The rotor.
+    pub rotor: &'a Rotor,
+    /// Air.
+    pub air: Air,
     /// Motion of the hub, steady.
     pub hub: &'a HubMotion<f64>,
     /// Azimuth [rad].
     pub psi: f64,
     /// Modal motion; the accelerations are a first guess.
     pub motion: ModalMotion<f64>,
-    /// Pitch from the start of the step on.
-    pub pitch: MovingPitch<'a>,
+    /// Controls at the start of the step, and their rates [1/s].
+    pub controls: [[f64; 4]; 2],
     /// Inflow held, a row of [`held_inflow`](crate::rotor::hub::Rotor::held_inflow).
     pub inflow: &'a [f64],
     /// Length of the step [s].
@@ -49,7 +51,7 @@ impl BladeStep<'_> {
     /// Stages: q_i = q + c_i h q_dot + h^2 sum (A^2)_ij K_j, q_dot_i = q_dot + h sum a_ij K_j with the accelerations K_j that
     /// meet the blade's equations there; the last stage is the end.
     pub fn advanced(&self) -> Result<ModalMotion<f64>, BladeStepFailure> {
-        let n = self.stand.rotor.blade.n_modes;
+        let n = self.rotor.blade.n_modes;
         if n == 0 {
             return Ok(self.motion);
         }
@@ -58,7 +60,7 @@ impl BladeStep<'_> {
         let mut k: Vec<f64> = (0..STAGES).flat_map(|_| self.motion.q_ddot[..n].to_vec()).collect();
         let mut f = vec![0.0; k.len()];
         let mut jacobian = vec![0.0; k.len() * k.len()];
-        let frequency = self.stand.rotor.omega;
+        let frequency = self.rotor.omega;
         for _ in 0..MAX_ITERATIONS {
             self.residual(&method, &k, &mut f);
             dense_jacobian(&k, |k, f| self.residual(&method, k, f), &mut jacobian);
@@ -98,13 +100,15 @@ impl BladeStep<'_> {
 
     /// Residual of the blade's equations at every stage.
     fn residual<S: Real>(&self, method: &Radau, k: &[S], f: &mut [S]) {
-        let rotor = &self.stand.rotor;
+        let rotor = self.rotor;
         let n = k.len() / STAGES;
         let hub = self.hub.constant();
         for i in 0..STAGES {
             let t = method.c[i] * self.step;
             let psi = self.psi + rotor.omega * t;
-            let at = self.pitch.at(t, psi, rotor.omega);
+            let [controls, rates] = self.controls;
+            let moved = std::array::from_fn(|i| controls[i] + rates[i] * t);
+            let at = rotor.blade_pitch(moved, rates, psi);
             let control = PitchMotion {
                 theta: S::cst(at.theta),
                 theta_dot: S::cst(at.theta_dot),
@@ -112,7 +116,7 @@ impl BladeStep<'_> {
             };
             let inflow = rotor.held_inflow(self.inflow);
             let motion = self.stage(method, k, i);
-            let loads = rotor.blade_loads(self.stand.air, &hub, psi, &motion, &control, &inflow);
+            let loads = rotor.blade_loads(self.air, &hub, psi, &motion, &control, &inflow);
             f[i * n..(i + 1) * n].copy_from_slice(&loads.modal[..n]);
         }
     }

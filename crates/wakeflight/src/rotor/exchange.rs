@@ -13,16 +13,6 @@ use crate::wake::{
     BladeState, CirculationSolution, HubMotion as WakeHub, Route, TimeMarchingWake, WakeError,
 };
 
-/// What may be done beyond the plain exchange.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct ExchangeOptions {
-    /// Passes after the step in which circulation and far inflow are found again, the wake held.
-    pub recorrect: usize,
-    /// Whether the far inflow is carried on linearly in azimuth: by half a step for the inflow held over the next step, by
-    /// a whole one for the circulation at its end.
-    pub extrapolate: bool,
-}
-
 /// What an exchange saw.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExchangeReport {
@@ -62,7 +52,6 @@ impl Place<'_> {
 pub struct MarchingExchange {
     /// The wake.
     pub wake: TimeMarchingWake,
-    options: ExchangeOptions,
     /// Far inflow at the stations (n_blades, n_stations).
     pub lambda_far: Vec<f64>,
     before: Option<Vec<f64>>,
@@ -82,14 +71,12 @@ impl MarchingExchange {
     /// From a wake with its far inflow, circulation and total inflow.
     pub fn new(
         wake: TimeMarchingWake,
-        options: ExchangeOptions,
         lambda_far: Vec<f64>,
         circulation: Vec<f64>,
         inflow: Vec<f64>,
     ) -> Self {
         Self {
             wake,
-            options,
             far_held: lambda_far.clone(),
             lambda_far,
             before: None,
@@ -115,14 +102,14 @@ impl MarchingExchange {
         let at = Place { rotor, air, hub };
         let mut followed = self.solve(&at, true)?;
         let step = self.wake.step(wake_hub, &self.states, &self.circulation)?;
-        self.renew_far(self.options.recorrect == 0);
+        self.renew_far(self.wake.own().recorrect == 0);
         followed += self.solve(&at, false)?;
-        for pass in 0..self.options.recorrect {
+        for pass in 0..self.wake.own().recorrect {
             self.wake.set_circulation(&self.circulation)?;
-            self.find_far(pass + 1 == self.options.recorrect);
+            self.find_far(pass + 1 == self.wake.own().recorrect);
             followed += self.solve(&at, false)?;
         }
-        if self.options.extrapolate {
+        if self.wake.own().extrapolate {
             self.hold_extrapolated(&at)?;
         }
         Ok(ExchangeReport {
@@ -166,7 +153,7 @@ impl MarchingExchange {
     /// Far inflow `steps` ahead, linear in azimuth from its last two values.
     fn far_ahead(&mut self, steps: f64) {
         self.far_held.copy_from_slice(&self.lambda_far);
-        if let (true, Some(before)) = (self.options.extrapolate, &self.before) {
+        if let (true, Some(before)) = (self.wake.own().extrapolate, &self.before) {
             for (held, old) in self.far_held.iter_mut().zip(before) {
                 *held += steps * (*held - old);
             }

@@ -4,7 +4,7 @@ use super::data::RotorData;
 use super::lag_damper::LagDamper;
 use super::sense::Sense;
 use super::swashplate::{BladePitch, PitchHarmonic, Rigging};
-use crate::airfoil::Airfoil;
+use crate::airfoil::span::StationAirfoils;
 use crate::blade::MAX_MODES;
 use crate::blade::aerodynamics::Air;
 use crate::blade::error::BladeError;
@@ -25,8 +25,8 @@ pub struct Rotor {
     pub blade: Blade,
     /// Number of blades.
     pub n_blades: usize,
-    /// Section tables.
-    pub airfoil: Airfoil,
+    /// Section table of every station.
+    pub airfoils: StationAirfoils,
     /// Law of sections that meet the air at three quarters of the chord; none on a lifting line.
     pub thin: Option<ThinSection>,
     /// Damper of every blade.
@@ -35,10 +35,10 @@ pub struct Rotor {
     pub rigging: Rigging,
     /// Higher harmonics of the pitch.
     pub higher: Vec<PitchHarmonic>,
+    /// Rotor speed [rad/s], positive in the sense of `sense`.
+    pub omega: f64,
     /// Sense of rotation: what is said of hub axes is said of its twin's.
     pub sense: Sense,
-    /// Rotor speed [rad/s].
-    pub omega: f64,
     /// Hub centre from the body origin [m].
     pub position: [f64; 3],
     /// Shaft tilt forward and to the right [rad].
@@ -53,10 +53,11 @@ impl Rotor {
         tip_loss_factor: f64,
         discretisation: &Discretisation,
     ) -> Result<Self, BladeError> {
+        let blade = Blade::new(&data.blade, data.omega, tip_loss_factor, discretisation)?;
         Ok(Self {
-            blade: Blade::new(&data.blade, data.omega, tip_loss_factor, discretisation)?,
+            airfoils: data.airfoil.at(blade.stations.iter().map(|station| station.shapes.x)),
+            blade,
             n_blades: data.n_blades,
-            airfoil: data.airfoil.clone(),
             thin: None,
             lag_damper: data.lag_damper.clone(),
             rigging,
@@ -119,7 +120,7 @@ impl Rotor {
 
     #[inline(always)]
     pub(super) fn environment(&self, air: Air) -> BladeEnvironment<'_> {
-        BladeEnvironment { airfoil: &self.airfoil, air, rotor_speed: self.omega }
+        BladeEnvironment { airfoils: &self.airfoils, air, rotor_speed: self.omega }
     }
 
     /// Loads of a blade with its damper, at azimuth `psi` for the stick position [m] and its rate [m/s].
@@ -242,6 +243,13 @@ impl Rotor {
         let scale = 1.0 / (air.density * std::f64::consts::PI * radius * radius * self.tip_speed().powi(2));
         // hub axes, x aft and y right: right side down is a moment about -x, nose up about +y
         [force.z * scale, -(moment.x * (scale / radius)), moment.y * (scale / radius)]
+    }
+
+    /// Blade area over disk area.
+    pub fn solidity(&self) -> f64 {
+        let blade = &self.blade;
+        let area: f64 = blade.stations.iter().map(|s| s.geometry.chord * s.geometry.width).sum();
+        self.n_blades as f64 * area / (std::f64::consts::PI * blade.radius * blade.radius)
     }
 
     /// Station about which the wake's rigid equivalent blade turns [m].

@@ -8,5 +8,4 @@ pub mod lag_damper;
 pub mod periodic;
 pub mod periodic_slopes;
 pub mod sense;
-pub mod stand;
 pub mod swashplate;

@@ -9,14 +9,14 @@ use crate::numerics::frames::Vec3;
 use crate::numerics::scalar::Real;
 use serde::{Deserialize, Serialize};
 
-/// Sense of rotation seen from above.
+/// Way a rotor turns, seen against its thrust (a main rotor from above).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
 pub enum Sense {
-    /// Counter-clockwise.
+    /// Counter-clockwise: the blade on the right advances.
     #[default]
     #[serde(rename = "ccw")]
     CounterClockwise,
-    /// Clockwise.
+    /// Clockwise: the blade on the left advances.
     #[serde(rename = "cw")]
     Clockwise,
 }

@@ -87,32 +87,14 @@ impl<S: Real> PitchSeries<'_, S> {
     }
 }
 
-/// Blade pitch whose collective and cyclic move at constant rates.
-#[derive(Clone, Copy, Debug)]
-pub struct MovingPitch<'a> {
-    /// theta_0, theta_1c, theta_1s at the start [rad].
-    pub controls: [f64; 3],
-    /// Their rates [rad/s].
-    pub rates: [f64; 3],
-    /// Higher harmonics.
-    pub higher: &'a [PitchHarmonic],
-}
-
-impl MovingPitch<'_> {
-    /// Pitch at time `t` [s] after the start, azimuth `psi` [rad], with exact rates.
-    pub fn at(&self, t: f64, psi: f64, omega: f64) -> BladePitch<f64> {
-        let now = |i: usize| self.controls[i] + self.rates[i] * t;
-        let held = PitchSeries { theta_0: now(0), theta_1c: now(1), theta_1s: now(2), higher: self.higher };
-        let [rate_0, rate_1c, rate_1s] = self.rates;
-        let (s, c) = psi.sin_cos();
-        let mut pitch = held.at(psi, omega);
-        pitch.theta_dot += rate_0 + rate_1c * c + rate_1s * s;
-        pitch.theta_ddot += 2.0 * omega * (rate_1s * c - rate_1c * s);
-        pitch
-    }
-}
-
 impl Rigging {
+    /// Controls that are the pitch itself: theta_0, theta_1c, theta_1s [rad], the fourth nothing.
+    pub fn direct() -> Self {
+        let mut matrix = [[0.0; 4]; 4];
+        (matrix[0][1], matrix[1][2], matrix[2][0]) = (1.0, 1.0, 1.0);
+        Self { matrix, offset: [0.0; 4], phase: 0.0 }
+    }
+
     /// Pitch controls (theta_1c, theta_1s, theta_0, theta_tr) [rad] of the sticks [m from the stop].
     #[inline(always)]
     pub fn pitch<S: Real>(&self, stick: [S; 4]) -> [S; 4] {

@@ -10,4 +10,3 @@ pub mod residual;
 pub mod rotor_loads;
 pub mod slopes;
 pub mod trim;
-pub mod trim_jacobian;

@@ -9,7 +9,8 @@ use crate::airframe::tail_rotor::TailRotor;
 use crate::blade::aerodynamics::Air;
 use crate::blade::error::BladeError;
 use crate::blade::model::Discretisation;
-use crate::inflow::pitt_peters::PittPeters;
+use crate::blade::thin_section::{SectionLift, ThinSection};
+use crate::inflow::pitt_peters::{MassFlow, PittPeters};
 use crate::rotor::data::RotorData;
 use crate::rotor::hub::Rotor;
 use crate::rotor::swashplate::Rigging;
@@ -59,6 +60,10 @@ pub struct Setting {
     pub free_wake: bool,
     /// Elements, modes, stations of the blades.
     pub discretisation: Discretisation,
+    /// Law of thin sections, whose circulation is that of the wind at three quarters of the chord; none on a lifting line.
+    pub lift: Option<SectionLift>,
+    /// Flow of mass through the disk that dynamic inflow takes.
+    pub mass_flow: MassFlow,
 }
 
 impl System {
@@ -99,7 +104,8 @@ impl System {
         let tails = closed.iter().map(|_| "tail".to_string()).collect();
         let layout = Layout::new(carrier.airframe().is_some(), states, tails);
         let (air, gravity) = (setting.air, setting.gravity);
-        Self { carrier, rotors, closed, pitt_peters: PittPeters::default(), air, gravity, layout }
+        let pitt_peters = PittPeters { mass_flow: setting.mass_flow, ..PittPeters::default() };
+        Self { carrier, rotors, closed, pitt_peters, air, gravity, layout }
     }
 
     /// The first rotor with blades: the main rotor of a helicopter.
@@ -117,6 +123,8 @@ impl Setting {
     /// A rotor discretised; lift ends at the tip loss factor of the data unless a free wake finds where it ends.
     pub fn rotor(&self, data: &RotorData, rigging: &Rigging) -> Result<Rotor, BladeError> {
         let tip_loss_factor = if self.free_wake { 1.0 } else { data.tip_loss_factor };
-        Rotor::new(data, rigging.clone(), tip_loss_factor, &self.discretisation)
+        let mut rotor = Rotor::new(data, rigging.clone(), tip_loss_factor, &self.discretisation)?;
+        rotor.thin = self.lift.map(|lift| ThinSection { lift });
+        Ok(rotor)
     }
 }

@@ -8,6 +8,7 @@ pub mod data_files;
 
 use beam_support::uh60a;
 use data_files::{Csv, INCH};
+use wakeflight::airfoil::span::SpanSections;
 use wakeflight::airfoil::{Airfoil, AirfoilTables};
 use wakeflight::airframe::mass::MassProperties;
 use wakeflight::blade::MAX_MODES;
@@ -17,6 +18,7 @@ use wakeflight::blade::loads::HubMotion;
 use wakeflight::blade::model::{Blade, Discretisation, StructuralPoint};
 use wakeflight::blade::section::BladeProperties;
 use wakeflight::blade::strain::add_strain_gradient;
+use wakeflight::inflow::pitt_peters::MassFlow;
 use wakeflight::numerics::frames::Vec3;
 use wakeflight::numerics::scalar::{Dual, Real};
 use wakeflight::numerics::tables::Grid;
@@ -188,7 +190,7 @@ pub fn aircraft_data(blade: BladeProperties, airfoil: Airfoil) -> AircraftData {
             shaft_tilt_lateral: 0.0,
             tip_loss_factor: 0.97,
             blade,
-            airfoil,
+            airfoil: SpanSections::uniform(airfoil),
             lag_damper: Some(lag_damper()),
             rotation: Sense::CounterClockwise,
         },
@@ -207,7 +209,8 @@ pub fn aircraft_data(blade: BladeProperties, airfoil: Airfoil) -> AircraftData {
 }
 
 pub fn setting(free_wake: bool, gravity: f64) -> Setting {
-    Setting { air: AIR, gravity, free_wake, discretisation: discretisation(5, 8) }
+    let (lift, mass_flow) = (None, MassFlow::Momentum);
+    Setting { air: AIR, gravity, free_wake, discretisation: discretisation(5, 8), lift, mass_flow }
 }
 
 pub fn build(data: &AircraftData, free_wake: bool, gravity: f64) -> System {
