@@ -18,6 +18,9 @@ from .tables import TableFile
 
 _KNOT = 1852.0 / 3600.0
 
+OTHER_WAY = {"ccw": "cw", "cw": "ccw"}
+"""Sense of rotation of the mirror image."""
+
 
 def fixed_parts(spec: AircraftFile, path: Path) -> dict[str, Any]:
     """Everything that does not depend on the loading, tables read and checked for coverage; path: of the file, for messages."""
@@ -57,7 +60,7 @@ def assembled(spec: AircraftFile, parts: dict[str, Any], loading: Loading, gross
         weight = loading.weight if loading.weight is not None else spec.condition.weight
         mass = float(weight) / STANDARD_GRAVITY
         inertia = airframe_inertia(inertia, mass, blades, hub)
-    return {
+    whole = {
         "rotor": {
             "n_blades": int(rotor.n_blades),
             "omega": float(rotor.omega),
@@ -84,6 +87,22 @@ def assembled(spec: AircraftFile, parts: dict[str, Any], loading: Loading, gross
         "interference": parts["interference"],
         "accessory_power": float(spec.drive.accessory_power),
     }
+    return mirrored(whole) if spec.mirrored else whole
+
+
+def mirrored(whole: dict[str, Any]) -> dict[str, Any]:
+    """The mirror image: the rotor turns the other way with its hub on the other side, the core reflects the airframe's air loads.
+
+    Sticks count as before, lateral and pedal now from the other stop.
+    """
+    rotor = whole["rotor"]
+    x, y, z = rotor["position"]
+    image = {
+        "rotation": OTHER_WAY[rotor["rotation"]],
+        "position": [x, -y, z],
+        "shaft_tilt_lateral": -rotor["shaft_tilt_lateral"],
+    }
+    return {**whole, "rotor": {**rotor, **image}, "mirrored": True}
 
 
 def lag_damper_data(rotor: Any) -> dict[str, Any] | None:

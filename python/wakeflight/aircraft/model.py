@@ -107,12 +107,16 @@ class Aircraft:
     def __repr__(self) -> str:
         """Name and loading."""
         loading = f", loading={self._loading_name!r}" if self._loading_name else ""
-        return f"Aircraft({self.name!r}{loading})"
+        return f"Aircraft({self.name!r}{loading}{', mirrored' if self._spec.mirrored else ''})"
 
     @property
     def name(self) -> str:
         """Name given in the file."""
         return self._spec.name
+
+    def mirrored(self) -> Aircraft:
+        """Its mirror image: the rotor turns the other way; lateral stick and pedal count from the other stop."""
+        return Aircraft(self._spec.model_copy(update={"mirrored": not self._spec.mirrored}), self._path, self._loading_name)
 
     @property
     def path(self) -> Path:

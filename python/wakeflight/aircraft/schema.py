@@ -247,6 +247,8 @@ class AircraftFile(Group):
 
     name: Annotated[str, Field(min_length=1)]
     notes: str = ""
+    # the aircraft is the mirror image of what the file says
+    mirrored: bool = False
     sources: dict[str, Source]
     condition: Condition
     conditions: dict[str, Condition] = Field(default_factory=dict)
