@@ -139,3 +139,39 @@ fn the_residual_of_four_blades_at_once_has_the_same_bits() {
         assert_eq!(one_by_one, at_once, "{name}");
     }
 }
+
+#[test]
+fn derivatives_by_what_acts_equal_central_differences() {
+    for (aircraft, inputs, name) in cases(true) {
+        if inputs.vacuum() {
+            continue;
+        }
+        let (t, (y, y_dot)) = (0.123, random_state(&aircraft, &mut Random::new(12)));
+        let slopes = aircraft.input_slopes(&at(t, &y, &y_dot, &inputs));
+        let columns = slopes.names.len();
+        let stations = inputs.inflow.iter().any(|held| matches!(held, HeldInflow::Stations { .. }));
+        assert_eq!(columns > 9, stations);
+        for (column, (input, _)) in slopes.names.iter().enumerate() {
+            let moved = |h: f64| {
+                let mut inputs = inputs.clone();
+                match column {
+                    0..4 => inputs.stick[column] += h,
+                    4..8 => inputs.stick_rate[column - 4] += h,
+                    8 => inputs.stabilator_incidence += h,
+                    _ => {
+                        let HeldInflow::Stations { inflow, mean } = &mut inputs.inflow[0] else { panic!() };
+                        *inflow.get_mut(column - 9).unwrap_or(mean) += h;
+                    }
+                }
+                residual(&aircraft, t, &y, &y_dot, &inputs)
+            };
+            let expected = difference(moved, 1e-4);
+            let found: Vec<f64> = (0..y.len()).map(|row| slopes.values[row * columns + column]).collect();
+            if expected.iter().chain(&found).all(|v| v.abs() < 1e-7) {
+                continue;
+            }
+            let e = relative_error(&found, &expected);
+            assert!(e < 1e-6, "{name}, {input}: {e:.2e}");
+        }
+    }
+}

@@ -82,8 +82,8 @@ impl Rotor {
 
     /// Pitch of a blade at azimuth `psi` [rad] for controls that move at constant rates, with exact rates.
     #[inline(always)]
-    pub fn blade_pitch(&self, stick: [f64; 4], stick_rate: [f64; 4], psi: f64) -> BladePitch<f64> {
-        let mut pitch = self.rigging.blade_pitch(stick, stick_rate, psi, self.omega);
+    pub fn blade_pitch<U: Real>(&self, stick: [U; 4], stick_rate: [U; 4], psi: f64) -> BladePitch<U> {
+        let mut pitch = self.rigging.blade_pitch(stick, stick_rate, U::cst(psi), self.omega);
         for harmonic in &self.higher {
             harmonic.add_to(&mut pitch, psi, self.omega);
         }

@@ -1,16 +1,51 @@
 //! Where F is asked: time, state, its rate, and what acts.
+//!
+//! What acts is plain numbers, or numbers with derivatives where F is differentiated by them.
+
+use crate::blade::loads::BladeInflow;
+use crate::numerics::scalar::{Dual, Real};
+use crate::rotor::hub::Rotor;
+
+/// A number of what acts, in equations over the scalar `S`.
+pub trait Acting<S>: Real {
+    /// As a number of the equations.
+    fn felt(self) -> S;
+    /// A row of held inflow of a blade.
+    fn held<'a>(rotor: &Rotor, row: &'a [Self]) -> BladeInflow<'a, S>;
+}
+
+impl<S: Real> Acting<S> for f64 {
+    #[inline(always)]
+    fn felt(self) -> S {
+        S::cst(self)
+    }
+    #[inline(always)]
+    fn held<'a>(rotor: &Rotor, row: &'a [f64]) -> BladeInflow<'a, S> {
+        rotor.held_inflow(row)
+    }
+}
+
+impl<const N: usize> Acting<Dual<N>> for Dual<N> {
+    fn felt(self) -> Self {
+        self
+    }
+    /// On a lifting line: thin sections hold two inflows and have no derivatives by them.
+    fn held<'a>(_: &Rotor, row: &'a [Self]) -> BladeInflow<'a, Self> {
+        BladeInflow::Variable(row)
+    }
+}
 
 /// Inflow of a rotor held over a coupling step.
 #[derive(Clone, Debug)]
-pub enum HeldInflow {
+pub enum HeldInflow<U = f64> {
     /// The three states of y.
     Dynamic,
     /// Rows of [`held_inflow`](crate::rotor::hub::Rotor::held_inflow), blade after blade, and the disk mean.
     Stations {
         /// lambda at every station, positive down.
-        inflow: Vec<f64>,
+        inflow: Vec<U>,
         /// Disk mean.
-        mean: f64,
+        mean: U,
     },
     /// No air.
     Vacuum,
@@ -18,23 +53,24 @@ pub enum HeldInflow {
 
 /// What acts on the system over one coupling step.
 #[derive(Clone, Debug)]
-pub struct Inputs {
+pub struct Inputs<U = f64> {
     /// Controls at `t_start`: sticks lateral, longitudinal, collective, pedal [m from the stop] of an airframe; on a stand
     /// theta_0, theta_1c, theta_1s [rad] and nothing.
-    pub stick: [f64; 4],
+    pub stick: [U; 4],
     /// Their rates [1/s].
-    pub stick_rate: [f64; 4],
+    pub stick_rate: [U; 4],
     /// Start of the step [s].
     pub t_start: f64,
     /// Inflow of every rotor with blades, in the order of the list.
-    pub inflow: Vec<HeldInflow>,
+    pub inflow: Vec<HeldInflow<U>>,
     /// Stabilator incidence [rad].
-    pub stabilator_incidence: f64,
+    pub stabilator_incidence: U,
 }
 
-impl Inputs {
+impl<U: Real> Inputs<U> {
     /// Controls at time `t`.
-    pub fn stick_at(&self, t: f64) -> [f64; 4] {
+    #[inline(always)]
+    pub fn stick_at(&self, t: f64) -> [U; 4] {
         std::array::from_fn(|i| self.stick[i] + self.stick_rate[i] * (t - self.t_start))
     }
 
@@ -46,7 +82,7 @@ impl Inputs {
 
 /// The arguments of F.
 #[derive(Clone, Copy, Debug)]
-pub struct Instant<'a, S> {
+pub struct Instant<'a, S, U = f64> {
     /// Time [s].
     pub t: f64,
     /// State.
@@ -54,5 +90,5 @@ pub struct Instant<'a, S> {
     /// Its rate.
     pub y_dot: &'a [S],
     /// What acts.
-    pub inputs: &'a Inputs,
+    pub inputs: &'a Inputs<U>,
 }

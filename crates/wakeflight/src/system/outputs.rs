@@ -104,9 +104,9 @@ impl System {
         for b in 0..rotor.n_blades {
             let psi = self.azimuth(r, at.t, b);
             o.azimuth.push(psi.rem_euclid(std::f64::consts::TAU));
-            let control = self.blade_pitch(r, at, psi);
+            let control = self.blade_pitch(r, at.inputs, (at.t, psi));
             let modal = self.modal_motion(r, at.y, at.y_dot, b);
-            let inflow = self.blade_inflow(r, at.y, at, b);
+            let inflow = self.blade_inflow(r, at.y, at.inputs, b);
             rotor.blade_air(self.air, &hub, psi, &modal, &control, &inflow, |_, air, lambda| {
                 o.inflow.push(lambda);
                 o.circulation.push(air.circulation);

@@ -107,7 +107,7 @@ impl RigidRates {
             for b in 0..l.n_blades {
                 let psi = system.azimuth(r, t, b);
                 let modal = system.modal_motion(r, y, at.y_dot, b);
-                let control = system.blade_pitch(r, &at, psi);
+                let control = system.blade_pitch(r, inputs, (t, psi));
                 let inertia = rotor.blade.inertia_about_hinge(psi, &modal, &control).ok_or(NoInertia)?;
                 let blade = &mut found.blades[b];
                 *blade = BladeInertia::of(&inertia, m).ok_or(NoInertia)?;

@@ -1,7 +1,7 @@
 //! F(y_dot, y, u; t): forces and moments on the carrier, blade modes, kinematics, inflow.
 
 use super::carrier::{Carrier, gravity_b};
-use super::instant::Instant;
+use super::instant::{Acting, Instant};
 use super::layout::{Layout, body_vector};
 use super::model::System;
 use super::rotor_loads::{RotorLoads, RotorShare, blade_rows};
@@ -37,7 +37,7 @@ pub struct Settings<'a, S> {
 
 impl System {
     /// Residual: accelerations [m/s2, rad/s2], rates of the kinematic and inflow states, modal forces.
-    pub fn residual<S: Real>(&self, at: &Instant<S>, f: &mut [S]) {
+    pub fn residual<S: Real, U: Acting<S>>(&self, at: &Instant<S, U>, f: &mut [S]) {
         let mut shares = Vec::with_capacity(self.rotors.len());
         for (r, rotor, l) in self.each_rotor() {
             let hub = self.hub_motion(r, at.y, at.y_dot);
@@ -64,19 +64,19 @@ impl System {
     }
 
     /// Rotors, fuselage, tail surfaces and closed-form rotors on the body origin.
-    pub fn airframe_loads<S: Real>(
+    pub fn airframe_loads<S: Real, U: Acting<S>>(
         &self,
         airframe: &Airframe,
-        at: &Instant<S>,
+        at: &Instant<S, U>,
         shares: &[RotorShare<S>],
     ) -> AirframeLoads<S> {
         if at.inputs.vacuum() {
             return self.loads_with(AirLoads::none(self.closed.len()), shares);
         }
-        let pitch = self.main().rigging.pitch(at.inputs.stick_at(at.t).map(S::cst));
+        let pitch = self.main().rigging.pitch(at.inputs.stick_at(at.t).map(Acting::felt));
         let settings = Settings {
-            mean_inflow: self.mean_inflow(0, at.y, at),
-            stabilator_incidence: S::cst(at.inputs.stabilator_incidence),
+            mean_inflow: self.mean_inflow(0, at.y, at.inputs),
+            stabilator_incidence: at.inputs.stabilator_incidence.felt(),
             closed_pitch: pitch[3],
             closed_inflow: &at.y[self.layout.closed_inflow()],
         };
@@ -124,7 +124,12 @@ impl System {
     }
 
     /// All equations but the blades', given what every rotor brings.
-    pub(super) fn shared_rows<S: Real>(&self, at: &Instant<S>, shares: &[RotorShare<S>], f: &mut [S]) {
+    pub(super) fn shared_rows<S: Real, U: Acting<S>>(
+        &self,
+        at: &Instant<S, U>,
+        shares: &[RotorShare<S>],
+        f: &mut [S],
+    ) {
         if let Carrier::Airframe(airframe) = &self.carrier {
             self.airframe_rows(airframe, at, shares, f);
         }
@@ -153,10 +158,10 @@ impl System {
     }
 
     /// Balances of the airframe, its attitude and track, the inflow of the closed-form rotors.
-    fn airframe_rows<S: Real>(
+    fn airframe_rows<S: Real, U: Acting<S>>(
         &self,
         airframe: &Airframe,
-        at: &Instant<S>,
+        at: &Instant<S, U>,
         shares: &[RotorShare<S>],
         f: &mut [S],
     ) {

@@ -1,6 +1,6 @@
 //! The blades' part of F: motion of a hub, pitch and inflow of every blade, loads of a rotor on its hub.
 
-use super::instant::{HeldInflow, Instant};
+use super::instant::{Acting, HeldInflow, Inputs, Instant};
 use super::layout::{RotorLayout, modal_array};
 use super::model::System;
 use crate::blade::kinematics::{ModalMotion, PitchMotion};
@@ -71,16 +71,16 @@ impl System {
         self.carrier.hub_motion(&self.rotors[r], y, y_dot, self.gravity)
     }
 
-    /// Blade pitch of rotor `r` at azimuth `psi` and the time of `at`, with exact rates.
+    /// Blade pitch of rotor `r` at time `t` and azimuth `psi`, with exact rates.
     #[inline(always)]
-    pub fn blade_pitch<S: Real, T>(&self, r: usize, at: &Instant<T>, psi: f64) -> PitchMotion<S> {
-        let rotor = &self.rotors[r];
-        let p = rotor.blade_pitch(at.inputs.stick_at(at.t), at.inputs.stick_rate, psi);
-        PitchMotion {
-            theta: S::cst(p.theta),
-            theta_dot: S::cst(p.theta_dot),
-            theta_ddot: S::cst(p.theta_ddot),
-        }
+    pub fn blade_pitch<S: Real, U: Acting<S>>(
+        &self,
+        r: usize,
+        inputs: &Inputs<U>,
+        (t, psi): (f64, f64),
+    ) -> PitchMotion<S> {
+        let p = self.rotors[r].blade_pitch(inputs.stick_at(t), inputs.stick_rate, psi);
+        PitchMotion { theta: p.theta.felt(), theta_dot: p.theta_dot.felt(), theta_ddot: p.theta_ddot.felt() }
     }
 
     /// Modal motion of blade `b` of rotor `r`.
@@ -96,21 +96,21 @@ impl System {
 
     /// Inflow that blade `b` of rotor `r` feels.
     #[inline(always)]
-    pub fn blade_inflow<'a, S: Real, T>(
+    pub fn blade_inflow<'a, S: Real, U: Acting<S>>(
         &self,
         r: usize,
         y: &[S],
-        at: &Instant<'a, T>,
+        inputs: &'a Inputs<U>,
         b: usize,
     ) -> BladeInflow<'a, S> {
-        match &at.inputs.inflow[r] {
+        match &inputs.inflow[r] {
             HeldInflow::Dynamic => {
                 let i = self.layout.rotors[r].inflow().start;
                 BladeInflow::Disk([y[i], y[i + 1], y[i + 2]])
             }
             HeldInflow::Stations { inflow, .. } => {
                 let width = inflow.len() / self.rotors[r].n_blades;
-                self.rotors[r].held_inflow(&inflow[b * width..(b + 1) * width])
+                U::held(&self.rotors[r], &inflow[b * width..(b + 1) * width])
             }
             HeldInflow::Vacuum => BladeInflow::Vacuum,
         }
@@ -118,17 +118,24 @@ impl System {
 
     /// Loads of blade `b` of rotor `r`.
     #[inline(always)]
-    pub fn blade_loads<S: Real>(
+    pub fn blade_loads<S: Real, U: Acting<S>>(
         &self,
         r: usize,
-        at: &Instant<S>,
+        at: &Instant<S, U>,
         hub: &HubMotion<S>,
         b: usize,
     ) -> BladeLoads<S> {
         let psi = self.azimuth(r, at.t, b);
-        let control = self.blade_pitch(r, at, psi);
+        let control = self.blade_pitch(r, at.inputs, (at.t, psi));
         let modal = self.modal_motion(r, at.y, at.y_dot, b);
-        self.rotors[r].blade_loads(self.air, hub, psi, &modal, &control, &self.blade_inflow(r, at.y, at, b))
+        self.rotors[r].blade_loads(
+            self.air,
+            hub,
+            psi,
+            &modal,
+            &control,
+            &self.blade_inflow(r, at.y, at.inputs, b),
+        )
     }
 
     /// Loads of all blades of rotor `r`, four at once; `each` sees every blade's.
@@ -149,10 +156,10 @@ impl System {
                 (
                     psi,
                     self.modal_motion(r, at.y, at.y_dot, blade(k)),
-                    self.blade_pitch::<f64, f64>(r, at, psi),
+                    self.blade_pitch(r, at.inputs, (at.t, psi)),
                 )
             });
-            let inflow = std::array::from_fn(|k| self.blade_inflow(r, at.y, at, blade(k)));
+            let inflow = std::array::from_fn(|k| self.blade_inflow(r, at.y, at.inputs, blade(k)));
             let loads = self.rotors[r].four_blade_loads(self.air, hub, &poses, &inflow);
             for (b, blade) in (first..n).zip(&loads) {
                 each(b, blade);
@@ -177,10 +184,10 @@ impl System {
     }
 
     /// Mean inflow of rotor `r` that the airframe feels: the state, or the disk mean of the wake.
-    pub(super) fn mean_inflow<S: Real, T>(&self, r: usize, y: &[S], at: &Instant<T>) -> S {
-        match &at.inputs.inflow[r] {
+    pub(super) fn mean_inflow<S: Real, U: Acting<S>>(&self, r: usize, y: &[S], inputs: &Inputs<U>) -> S {
+        match &inputs.inflow[r] {
             HeldInflow::Dynamic => y[self.layout.rotors[r].inflow().start],
-            HeldInflow::Stations { mean, .. } => S::cst(*mean),
+            HeldInflow::Stations { mean, .. } => mean.felt(),
             HeldInflow::Vacuum => S::zero(),
         }
     }
@@ -203,11 +210,11 @@ impl System {
 }
 
 /// Rows of the blades of a rotor in F: kinematics of the modal coordinates, and the modal equations.
-pub(super) fn blade_rows<S: Real>(
+pub(super) fn blade_rows<S: Real, U>(
     l: &RotorLayout,
     b: usize,
     blade: &BladeLoads<S>,
-    at: &Instant<S>,
+    at: &Instant<S, U>,
     f: &mut [S],
 ) {
     let (q, s) = (l.modal(b).start, l.modal_rate(b).start);

@@ -39,7 +39,7 @@ impl System {
                 let poses = std::array::from_fn(|k| {
                     let b = (first + k).min(n - 1);
                     let psi = self.azimuth(r, at.t, b);
-                    (psi, self.modal_motion(r, at.y, still, b), self.blade_pitch::<f64, f64>(r, at, psi))
+                    (psi, self.modal_motion(r, at.y, still, b), self.blade_pitch(r, at.inputs, (at.t, psi)))
                 });
                 let masses = rotor.four_mass_matrices(&poses);
                 for (b, (blade, (_, modal, control))) in (first..n).zip(masses.iter().zip(&poses)) {
