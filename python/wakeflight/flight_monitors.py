@@ -9,10 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .errors import NumericalFailure
-from .limits import stall_angles
+from .limits import stall_along_span, table_end
 from .model import Model
 from .monitors import Monitor, Places, airframe, rotor
-from .trim_monitors import table_end
 
 if TYPE_CHECKING:
     from .recorder import Recorder
@@ -60,16 +59,25 @@ def monitors(run: Recorder) -> tuple[Monitor, ...]:
     names = ("lateral", "longitudinal", "collective", "pedal")
     inches = dict(zip(names, stick.T / 0.0254, strict=True))
     engine = rotor.over_passage(run.scalars["power"][:n], passage)
+    shaft = rotor.over_passage(-run.loads["hub_moment"][:n, 2], passage)
     found = [
         rotor.induced_velocity(fields["inflow"], usual, bound, places),
         rotor.mach_number(fields["mach"], fastest, table_end(tables), places),
         rotor.angle_of_attack(fields["alpha"], places),
         rotor.stall(
-            stall_angles(tables), fields["alpha"], fields["mach"], model.area_weights, tip_mach, places, passage
+            stall_along_span(tables, model.stations),
+            fields["alpha"],
+            fields["mach"],
+            model.area_weights,
+            tip_mach,
+            places,
+            passage,
         ),
         rotor.axial_flow(mu, mu_z, run.scalars["ct"][:n], model.inflow.is_dynamic, time),
         *airframe.sticks(inches, aircraft.stick_travel_in, time),
         airframe.power(engine, aircraft.limits.power, time),
+        *airframe.torque(shaft, aircraft.limits.torque, time),
+        *airframe.rotor_speed(model.omega, aircraft.limits.rotor_speed),
         airframe.ground(y[:, 12], run.start.condition.altitude, time),
     ]
     return (*found, *_of_wake(run, time))

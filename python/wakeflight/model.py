@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, ClassVar
 
@@ -16,7 +16,24 @@ from .condition import FlightCondition
 from .inflow import InflowModel, RelaxationWake
 from .monitors import Bounds, bounds
 from .results import disk
+from .trim_target import Target
 from .units import STANDARD_GRAVITY
+
+ROLL, PITCH, YAW = 4, 5, 6
+"""Places of the attitude among the unknowns of a trim of an aircraft."""
+BALANCES = tuple((name, ()) for name in ("force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z"))
+
+Equations = tuple[tuple[str, tuple[float, ...]], ...]
+"""Name and numbers of every equation asked for, SI."""
+
+
+@dataclass(frozen=True)
+class Question:
+    """What is asked of a trim: path (speed, flight path, turn rate), its free parts, the equations."""
+
+    equations: Equations
+    path: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    free: tuple[str, ...] = ()
 
 
 class CompiledRotor:
@@ -75,6 +92,19 @@ class CompiledRotor:
         raise NotImplementedError
 
     @property
+    def question(self) -> Question:
+        """What is asked of its trim."""
+        raise NotImplementedError
+
+    def normalised(self, x: np.ndarray) -> np.ndarray:
+        """Unknowns of a trim with angles that mean the same brought to one of them."""
+        return x
+
+    def is_answer(self, problem: _core.TrimProblem, x: np.ndarray) -> bool:
+        """Whether unknowns that meet the equations are what was asked for."""
+        return True
+
+    @property
     def has_thin_sections(self) -> bool:
         """Whether the blades lift as thin sections without stall instead of by their tables."""
         return False
@@ -126,10 +156,14 @@ class Model(CompiledRotor):
     data: dict[str, Any]
     density: float
     speed_of_sound: float
+    target: Target | None = None
+    """What a trim meets with a part of the condition's path left free."""
     n_controls: ClassVar[int] = 4
 
     @classmethod
-    def build(cls, aircraft: Aircraft, condition: FlightCondition, inflow: InflowModel) -> Model:
+    def build(
+        cls, aircraft: Aircraft, condition: FlightCondition, inflow: InflowModel, target: Target | None = None
+    ) -> Model:
         """Compile; the tip loss is off and the inflow states are out of y with a free wake.
 
         Options of the wake that depend on the regime take the numbers of the condition's.
@@ -151,7 +185,45 @@ class Model(CompiledRotor):
             inflow.n_stations,
             d.reference_pitch,
         )
-        return cls(aircraft, condition, inflow, core, data, density, speed_of_sound)
+        return cls(aircraft, condition, inflow, core, data, density, speed_of_sound, target)
+
+    @property
+    def question(self) -> Question:
+        """The condition: balances, lateral convention, and what is met with parts of the path left free."""
+        c = self.condition
+        equations: list = [*BALANCES, ("convention", (c.bank or 0.0, c.sideslip or 0.0, c.bank_share))]
+        free = []
+        if self.target is not None:
+            equations.append((self.target.name, (self.target.value,)))
+            free.append(self.target.free)
+        if c.load_factor is not None:
+            equations.append(("load_factor", (c.load_factor, c.turn_side)))
+            free.append("turn_rate")
+        return Question(tuple(equations), (c.speed, c.flight_path, c.turn_rate), tuple(free))
+
+    def flown(self, problem: _core.TrimProblem, x: np.ndarray) -> Model:
+        """This model with what was found of the path in its condition."""
+        if not self.question.free:
+            return self
+        speed, flight_path, turn_rate = self.core.trim_path(problem, x)
+        condition = self.condition.changed(speed=speed, flight_path=flight_path, turn_rate=turn_rate)
+        return replace(self, condition=condition)
+
+    def normalised(self, x: np.ndarray) -> np.ndarray:
+        """`x` with roll and heading in (-pi, pi]."""
+        x = x.copy()
+        for i in (ROLL, YAW):
+            # rounding at -pi does not turn a heading about
+            turned = np.remainder(x[i] + np.pi - 1e-9, 2 * np.pi) - np.pi + 1e-9
+            x[i] = min(turned, np.pi)
+        return x
+
+    def is_answer(self, problem: _core.TrimProblem, x: np.ndarray) -> bool:
+        """Whether it is the flight asked for: not looping, not backwards along its path or where the heading is left free."""
+        free = self.condition.bank_share > 0.5
+        speed, flight_path, _ = self.core.trim_path(problem, x)
+        along = speed >= 0.0 and abs(flight_path) <= 0.5 * np.pi
+        return along and abs(x[PITCH]) < 0.5 * np.pi and not (free and abs(x[YAW]) > 0.5 * np.pi)
 
     @property
     def rotor_tables(self) -> dict[str, Any]:

@@ -25,6 +25,7 @@ RUST_ORDER = (
     "blade",
     "rotor",
     "airframe",
+    "trim",
     "aircraft",
     "integrate",
 )
@@ -36,7 +37,7 @@ PYTHON_ORDER = (
     {"options"},
     {"presets"},
     {"condition", "inflow", "maneuvers", "wing", "monitors"},
-    {"aircraft", "thinning"},
+    {"aircraft", "thinning", "trim_target"},
     {"model", "modes"},
     {"integrators", "exchange"},
     {"wake_trim", "trim_results", "trim_equations"},

@@ -238,6 +238,33 @@ def test_help_needs_no_heavy_import():
         assert command in done.stdout
 
 
+VEHICLE = ["aircraft", "loading", "condition"]
+STRAIGHT = ["speed", "flight-path", "altitude", "weight"]
+CONDITION = [*STRAIGHT, "sideslip", "turn-rate", "bank"]
+WAKE = ["azimuth-step", "wake-turns", "wake-scheme"]
+RUN = ["threads", "out"]
+
+
+@pytest.mark.parametrize(
+    ("command", "names"),
+    [
+        ("fly", ["inflow", *VEHICLE, *CONDITION, "revolutions", *WAKE, "integrator", "blades", *RUN]),
+        ("compare", [*VEHICLE, *STRAIGHT, "revolutions", *WAKE, "integrator", *RUN]),
+        ("trim", ["inflow", *VEHICLE, *CONDITION, *WAKE, "blades", *RUN]),
+        ("modes", ["aircraft", "modes", "out"]),
+        ("report", ["out"]),
+        ("validate", ["cases", "fast", *RUN]),
+        ("paper", ["redraw", "studies", "jobs", "out"]),
+    ],
+)
+def test_the_options_of_a_command_stand_in_their_order(command, names):
+    from typer.testing import CliRunner
+
+    shown = CliRunner().invoke(cli.app, [command, "--help"], env={"COLUMNS": "200"}).output
+    found = [line.split()[0].removeprefix("--") for line in shown.splitlines() if line.strip().startswith("--")]
+    assert [name for name in found if name in names] == names
+
+
 def test_importing_the_package_imports_nothing_heavy():
     code = (
         "import sys, wakeflight as wf\n"

@@ -270,7 +270,9 @@ impl Core<'_> {
             Self::Stand(s) => {
                 let controls = stick.try_into().map_err(|_| wrong())?;
                 let rates = rate.try_into().map_err(|_| wrong())?;
-                MovingPitch { controls, rates, higher: &s.higher }.at(0.0, psi, s.inner.rotor.omega).into()
+                MovingPitch { controls, rates, higher: &s.inner.higher }
+                    .at(0.0, psi, s.inner.rotor.omega)
+                    .into()
             }
         };
         Ok(BladeInstant { psi, modal, control })

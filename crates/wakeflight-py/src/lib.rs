@@ -9,6 +9,7 @@ mod inflow;
 mod options;
 mod rotor;
 mod stand;
+mod trim;
 mod vortex;
 mod wake;
 
@@ -21,6 +22,7 @@ fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
     blade::register(m)?;
     flight::register(m)?;
     stand::register(m)?;
+    trim::register(m)?;
     inflow::register(m)?;
     options::register(m)?;
     vortex::register(m)?;

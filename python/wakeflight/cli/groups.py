@@ -60,6 +60,10 @@ class Condition(Straight):
     sideslip: Annotated[str | None, typer.Option("--sideslip", help='wind from the right +, "5 deg"')] = None
     turn_rate: Annotated[str | None, typer.Option("--turn-rate", help='to the right +, "3 deg/s"')] = None
     bank: Annotated[str | None, typer.Option("--bank", help='to the right +, "10 deg"')] = None
+    load_factor: Annotated[float | None, typer.Option("--load-factor", help="of a turn whose rate is found, 1.5")] = (
+        None
+    )
+    turn: Annotated[str | None, typer.Option("--turn", help="direction of that turn: right, left")] = None
 
 
 @dataclass(frozen=True)

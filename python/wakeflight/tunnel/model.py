@@ -12,8 +12,8 @@ import numpy as np
 from .. import _core
 from ..aircraft import Rotor
 from ..inflow import STAND_MODELS, AnnularInflow, InflowModel, inflow_model
-from ..model import CompiledRotor
-from ..trim_equations import resample
+from ..model import CompiledRotor, Question
+from ..trim_equations import trim_problem
 from ..units import STANDARD_GRAVITY
 from .condition import StandCondition
 
@@ -73,19 +73,19 @@ class StandModel(CompiledRotor):
             list(condition.higher),
             blade_model,
             windmill,
+            condition.velocity,
+            condition.rates,
         )
         return cls(rotor, condition, inflow, core, n_harmonics, blade_model, windmill)
 
-    def problem(self, inflow_map: np.ndarray | None) -> _core.StandProblem:
+    @property
+    def question(self) -> Question:
+        """What the pitch controls are found from."""
+        return Question(tuple((name, (value,)) for name, value in self.condition.controls))
+
+    def problem(self, inflow_map: np.ndarray | None) -> _core.TrimProblem:
         """The equations on a held inflow map (n_azimuths, n_stations), or with dynamic inflow."""
-        n = self.steps_per_revolution if inflow_map is None else inflow_map.shape[0]
-        # at least four azimuths per highest harmonic
-        fine = n * int(np.ceil(4 * max(self.n_harmonics, 1) / n))
-        if inflow_map is not None and fine > n:
-            inflow_map = resample(inflow_map, fine)
-        c = self.condition
-        higher, controls = list(c.higher), list(c.controls)
-        return _core.StandProblem(c.velocity, c.rates, controls, higher, self.n_harmonics, fine, inflow_map)
+        return trim_problem(self, inflow_map, self.n_harmonics)
 
     @property
     def rotor_tables(self) -> dict[str, Any]:

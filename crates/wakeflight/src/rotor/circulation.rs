@@ -84,7 +84,7 @@ impl Rotor {
     ) {
         for (j, wind) in winds.iter().enumerate() {
             // a station's circulation depends on its own inflow alone
-            let gamma = wind.circulation(&self.airfoil, &air, Dual::<1>::variable(lambda[j], 0));
+            let gamma = wind.circulation(self.airfoils.at(j), &air, Dual::<1>::variable(lambda[j], 0));
             (circulation[j], slope[j]) = (gamma.re, gamma.eps[0]);
         }
     }
