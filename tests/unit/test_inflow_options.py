@@ -190,13 +190,13 @@ def test_a_model_is_a_value(kind):
         kind(colour="blue")
 
 
-def test_options_that_do_not_go_with_the_rotor_are_refused_before_anything_starts(uh60a):
+def test_options_that_do_not_go_together_are_refused_when_the_model_is_made():
     for given, named in (
-        ({"far_wake": "cylinder", "inboard_wake": "sheet"}, "far_wake = 'cylinder'"),
+        ({"far_wake": "cylinder", "inboard_wake": "sheet"}, "far_wake = 'cylinder': for tip vortices"),
         ({"turns": 1.0, "far_wake_turns": 1}, "far_wake_turns = 1: must be 0 unless turns"),
     ):
         with pytest.raises(InputError, match=named):
-            RelaxationWake(**given).resolved("hover").core_options(uh60a)
+            RelaxationWake(**given)
 
 
 def test_another_rotors_options_are_refused(uh60a):

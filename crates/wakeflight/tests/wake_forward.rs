@@ -190,7 +190,7 @@ mod inertial {
             velocity
         };
         let dt = options.delta_psi() / OMEGA;
-        let circulation = vec![gamma; options.rotor.n_blades];
+        let circulation = vec![gamma; options.rotor.n_blades * options.n_stations];
         for step in 1..=steps {
             marched.step(turning, &blades(&options, step), &circulation).unwrap();
 

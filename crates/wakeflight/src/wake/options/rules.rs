@@ -148,6 +148,19 @@ impl WakeOptions {
                 "must be 1 with trailers = full-span, which leave from the edges of the bound elements"
                     .to_owned()
             },
+        )?;
+        let tips_alone = !full_span && self.inboard_wake == InboardWake::None && self.far_wake_turns == 0;
+        demand(
+            self.far_wake == FarWake::Repeat || tips_alone && self.turns >= 2.0,
+            "far_wake",
+            || "'cylinder'".to_owned(),
+            || "for tip vortices of at least 2 turns, without inboard wake and far_wake_turns".to_owned(),
+        )?;
+        demand(
+            self.far_wake_turns == 0 || self.turns >= 2.0,
+            "far_wake_turns",
+            || self.far_wake_turns.to_string(),
+            || "must be 0 unless turns is at least 2".to_owned(),
         )
     }
 
@@ -158,9 +171,8 @@ impl WakeOptions {
         let WakeRotor { n_blades, radius, root_cutout, hinge_offset, .. } = self.rotor;
         check_azimuth_step(self.azimuth_step, n_blades)?;
         let steps = || format!("must be a whole number of azimuth steps of {}", degrees(self.azimuth_step));
-        let length = whole(self.turns * self.steps_per_revolution() as f64);
-        demand(length.is_some(), "turns", || short(self.turns), steps)?;
-        let two_turns = length.is_some_and(|n| n >= 2 * self.steps_per_revolution());
+        let length = self.turns * self.steps_per_revolution() as f64;
+        demand(whole(length).is_some(), "turns", || short(self.turns), steps)?;
         demand(
             whole(self.near_wake_angle / self.delta_psi()).is_some(),
             "near_wake_angle",
@@ -172,22 +184,6 @@ impl WakeOptions {
             "root_cutout",
             || root_cutout.to_string(),
             || "inside 0.8 of the radius with an inboard sheet".to_owned(),
-        )?;
-        demand(
-            self.far_wake == FarWake::Repeat
-                || two_turns
-                    && self.trailers == Trailers::Tip
-                    && self.inboard_wake == InboardWake::None
-                    && self.far_wake_turns == 0,
-            "far_wake",
-            || "'cylinder'".to_owned(),
-            || "for tip vortices of at least 2 turns, without inboard wake and far_wake_turns".to_owned(),
-        )?;
-        demand(
-            self.far_wake_turns == 0 || two_turns,
-            "far_wake_turns",
-            || self.far_wake_turns.to_string(),
-            || "must be 0 unless turns is at least 2".to_owned(),
         )?;
         demand(
             self.release_radius * radius > root_cutout.max(hinge_offset),
