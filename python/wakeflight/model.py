@@ -56,7 +56,7 @@ class CompiledRotor:
     @cached_property
     def area_weights(self) -> np.ndarray:
         """Shares of the disk's area between root cutout and tip that the stations stand for (n_stations,), summing to one."""
-        return disk.area_weights(self.stations, np.asarray(self.rotor["widths"]))
+        return np.asarray(self.rotor["area_weights"])
 
     @property
     def steps_per_revolution(self) -> int:
@@ -92,21 +92,6 @@ class CompiledRotor:
         """Area mean and first harmonics of an inflow map (n_azimuths, n_stations), the first azimuth being zero."""
         psi = 2 * np.pi * np.arange(inflow.shape[0]) / inflow.shape[0]
         return disk.first_harmonics(inflow, psi, self.stations / self.rotor["radius"], self.area_weights)
-
-    def carrying_inflow(self, circulation: np.ndarray, hub_velocity: np.ndarray) -> float:
-        """Inflow of momentum theory for the thrust of a circulation map (n_azimuths, n_stations) [m2/s]: it carries the sheet.
-
-        Thrust by Kutta-Joukowski from the speed along the chord of a blade without flapping, Omega r + V sin psi; hub velocity
-        [m/s] in hub axes.
-        """
-        psi = 2 * np.pi * np.arange(circulation.shape[0]) / circulation.shape[0]
-        across = hub_velocity[1] * np.cos(psi) - hub_velocity[0] * np.sin(psi)
-        widths = np.asarray(self.rotor["widths"])
-        lift = circulation @ (self.omega * self.stations * widths) + across * (circulation @ widths)
-        disk = np.pi * self.rotor["radius"] ** 2 * self.tip_speed**2
-        ct = self.n_blades * float(np.mean(lift)) / disk
-        mu = np.hypot(hub_velocity[0], hub_velocity[1]) / self.tip_speed
-        return _core.momentum_inflow(ct, float(mu * mu), float(-hub_velocity[2] / self.tip_speed), False)
 
 
 def flight_regime(aircraft: Aircraft, condition: FlightCondition) -> str:
@@ -151,6 +136,10 @@ class Model(CompiledRotor):
             d.reference_pitch,
         )
         return cls(aircraft, condition, inflow, core, data, density, speed_of_sound)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Compiled anew where it is needed."""
+        return Model.build, (self.aircraft, self.condition, self.inflow)
 
     @property
     def rotor_tables(self) -> dict[str, Any]:

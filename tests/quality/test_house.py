@@ -27,9 +27,9 @@ RUST_ORDER = (
 
 # each module may import itself and the rows before its own; a new module needs its place here
 PYTHON_ORDER = (
-    {"_core", "errors", "schema", "regime", "disk"},
+    {"_core", "errors", "schema", "regime", "disk", "views"},
     {"units", "references", "vortex", "progress", "limits", "text"},
-    {"condition", "inflow", "results", "maneuvers", "wing", "monitors"},
+    {"condition", "inflow", "results", "maneuvers", "wing", "monitors", "snapshot"},
     {"aircraft", "thinning"},
     {"model", "modes"},
     {"integrators", "exchange"},
@@ -37,8 +37,9 @@ PYTHON_ORDER = (
     {"trim_limits", "trim_start", "trim_newton"},
     {"trim_solve", "trim_monitors"},
     {"trim_wake", "flight_monitors"},
-    {"recorder"},
     {"trim"},
+    {"simulation"},
+    {"recorder"},
     {"flight", "tunnel"},
     {"linearize", "sweep", "converge"},
     {"plotting", "export"},

@@ -1,16 +1,18 @@
 //! The aircraft: F, its Jacobian, trim equations, exchange with the wake, outputs.
 
+use crate::checks::{pack, unpack};
 use crate::rotor::{motion, rotor_constants};
 use numpy::ndarray::Array;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
 use numpy::{PyReadwriteArray1, PyReadwriteArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyBytes, PyDict};
 use std::f64::consts::TAU;
 use wakeflight::aircraft::data::AircraftData;
 use wakeflight::aircraft::model::{Aircraft, HeldInflow, Inputs};
 use wakeflight::aircraft::trim::{Convention, TrimInflow, TrimProblem};
+use wakeflight::airframe::servo::Scheduled;
 use wakeflight::blade::aerodynamics::Air;
 use wakeflight::blade::model::Discretisation;
 use wakeflight::numerics::frames::{Hub, Vec3};
@@ -81,6 +83,17 @@ impl PyTrimProblem {
             }
         };
         Self(TrimProblem { speed, flight_path, turn_rate, convention, n_harmonics, n_azimuths, inflow })
+    }
+
+    /// Everything of it, exact.
+    fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        pack(py, &self.0)
+    }
+
+    /// From `to_bytes`.
+    #[staticmethod]
+    fn from_bytes(bytes: &[u8]) -> PyResult<Self> {
+        unpack("trim problem", bytes).map(Self)
     }
 }
 
@@ -243,13 +256,22 @@ impl PyAircraft {
         Ok(inputs.stabilator_incidence)
     }
 
-    /// Incidence [rad] the stabilator's schedule asks for at a true airspeed [m/s], collective stick [m], pitch rate [rad/s],
-    /// and the rate limit of its servo [rad/s]; None without a schedule.
-    fn scheduled_stabilator(&self, speed: f64, collective: f64, pitch_rate: f64) -> Option<(f64, f64)> {
-        let airframe = &self.inner.airframe;
-        let schedule = airframe.stabilator_schedule.as_ref()?;
-        let incidence = airframe.trim_incidence(speed, self.inner.air.density, collective, pitch_rate);
-        Some((incidence, schedule.rate_limit))
+    /// Stabilator incidence [rad] after `delta_t` [s] on the way from `incidence` toward its schedule at state `y` and collective
+    /// stick [m], within the rate of its servo; without a schedule it stays.
+    fn followed_incidence(
+        &self,
+        incidence: f64,
+        y: PyReadonlyArray1<f64>,
+        collective: f64,
+        delta_t: f64,
+    ) -> PyResult<f64> {
+        let y = y.as_slice()?;
+        let &[u, v, w, _, pitch_rate, ..] = y else {
+            return Err(invalid(format!("y has {} numbers, {} needed", y.len(), self.inner.layout.len())));
+        };
+        let density = self.inner.air.density;
+        let seen = Scheduled { velocity: [u, v, w], pitch_rate, collective, density };
+        Ok(self.inner.airframe.followed_incidence(incidence, &seen, delta_t))
     }
 
     /// Modal coordinates and rates (n_azimuths, n_modes) of the periodic motion.

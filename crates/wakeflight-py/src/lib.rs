@@ -4,6 +4,8 @@ use pyo3::prelude::*;
 mod aircraft;
 mod atmosphere;
 mod blade;
+mod checks;
+mod exchange;
 mod flight;
 mod inflow;
 mod rotor;
@@ -19,6 +21,7 @@ fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
     aircraft::register(m)?;
     blade::register(m)?;
     flight::register(m)?;
+    exchange::register(m)?;
     stand::register(m)?;
     inflow::register(m)?;
     vortex::register(m)?;

@@ -60,7 +60,7 @@ pub(crate) fn vectors<'py>(
 }
 
 /// (n, m, l, 3) array from row-major vectors.
-fn lattice<'py>(
+pub(crate) fn lattice<'py>(
     py: Python<'py>,
     values: &[[f64; 3]],
     rows: usize,

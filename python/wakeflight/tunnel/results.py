@@ -312,7 +312,7 @@ class Tunnel:
         s, radius = self.solution, self.radius
         n = len(self.azimuth)
         if s.march is not None:
-            wake, strength = s.march.position(), s.march.core.marker_circulation().mean(axis=0)
+            wake, strength = s.march.position(), s.march.marker_circulation().mean(axis=0)
         else:
             rows = [b * n // self.model.n_blades for b in range(self.model.n_blades)]
             wake = path[rows]

@@ -11,6 +11,7 @@ use crate::blade::model::Discretisation;
 use crate::inflow::pitt_peters::PittPeters;
 use crate::numerics::scalar::Real;
 use crate::rotor::hub::Rotor;
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 /// Standard gravity [m/s2].
@@ -45,7 +46,7 @@ pub struct Aircraft {
 }
 
 /// Inflow of the main rotor held over a coupling step.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 pub enum HeldInflow {
     /// The three states of y.
     Dynamic,
@@ -61,7 +62,7 @@ pub enum HeldInflow {
 }
 
 /// What acts on the aircraft over one coupling step.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct Inputs {
     /// Sticks at `t_start`: lateral, longitudinal, collective, pedal [m from the stop].
     pub stick: [f64; 4],

@@ -13,13 +13,14 @@ use crate::numerics::frames::{Body, Vec3, quaternion, rot_ib};
 use crate::numerics::scalar::Real;
 use crate::rotor::periodic::Harmonics;
 use crate::rotor::swashplate::PitchSeries;
+use serde::{Deserialize, Serialize};
 
 /// What fixes the lateral degree of freedom: bank and sideslip as given, in shares of one equation.
 ///
 /// Sideslip is the angle of the wind in the plane of the nose: atan2(v, u) where the flight is fast and flat, minus the heading
 /// against the track where it is slow or steep (u and v then tell of climb and attitude, not of a direction), blended between
 /// by the share of the horizontal speed.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
 pub struct Convention {
     /// Bank angle [rad].
     pub bank: f64,
@@ -33,7 +34,7 @@ pub struct Convention {
 const SLOW: f64 = 3.0;
 
 /// Inflow in trim.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 pub enum TrimInflow {
     /// Dynamic inflow, constant over the revolution.
     Dynamic,
@@ -47,7 +48,7 @@ pub enum TrimInflow {
 }
 
 /// A steady flight condition to trim for.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct TrimProblem {
     /// True airspeed along the flight path [m/s].
     pub speed: f64,

@@ -13,6 +13,7 @@ use super::trailers;
 use super::velocity_field::{
     FieldWork, InducedVelocity, Induction, RotorInstant, Wanted, field_at, point_velocity, sum,
 };
+use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
 /// Largest motion of a marker in one step, over R.
@@ -34,7 +35,7 @@ pub struct StepReport {
 ///
 /// dr/dpsi + dr/dzeta = V/omega; one predictor and one corrector per step. Three levels of geometry are kept, and with
 /// every marker its circulation and the place of its release.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct TimeMarchingWake<F: InducedVelocity = Induction> {
     options: WakeOptions,
     grid: BladeGrid,
@@ -52,6 +53,7 @@ pub struct TimeMarchingWake<F: InducedVelocity = Induction> {
     /// Velocity of the markers at the present level [m/s], where it is known.
     velocity: Vec<[f64; 3]>,
     velocity_is_known: bool,
+    #[serde(skip)]
     work: Work,
 }
 
