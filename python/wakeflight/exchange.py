@@ -5,15 +5,18 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar, Protocol
 
 import numpy as np
 
 from . import _core
 from .model import CompiledRotor
 
-if TYPE_CHECKING:
-    from .wake_trim import WakeInTrim
+
+class Trimmed(Protocol):
+    """The wake of a trim."""
+
+    core: _core.SteadyWake
 
 
 class Exchange:
@@ -50,7 +53,7 @@ class Exchange:
 
         motion: modal coordinates and rates (n_blades, n_modes) that stand for those of `y`.
         """
-        self.core.advance(self.model.core, step, y, stick, stick_rate, motion)
+        self.core.advance(self.model.core, step, y, (stick, stick_rate), motion)
 
     def tips(self, step: int) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
         """Tip vortices after `step` steps, None without a wake.
@@ -89,7 +92,7 @@ class MarchingExchange(Exchange):
 
     marches: ClassVar[bool] = True
 
-    def __init__(self, model: CompiledRotor, trimmed: WakeInTrim | None, core: _core.Exchange | None = None):
+    def __init__(self, model: CompiledRotor, trimmed: Trimmed | None, core: _core.Exchange | None = None):
         super().__init__(model, core or marching(model, trimmed))
         self._frozen: tuple | None = None
 
@@ -164,7 +167,7 @@ class MarchingExchange(Exchange):
         return self.core.wake()
 
 
-def marching(model: CompiledRotor, trimmed: WakeInTrim) -> _core.Exchange:
+def marching(model: CompiledRotor, trimmed: Trimmed) -> _core.Exchange:
     """A marching wake with the options of `model` from the periodic one of a trim."""
     inflow = model.inflow
     hold = steps_of(model, inflow.update_interval)
@@ -172,7 +175,7 @@ def marching(model: CompiledRotor, trimmed: WakeInTrim) -> _core.Exchange:
     return _core.Exchange.marching(model.core, trimmed.core, model.wake_options, json.dumps(options))
 
 
-def relaxation(model: CompiledRotor, trimmed: WakeInTrim, motion: tuple[np.ndarray, np.ndarray]) -> _core.Exchange:
+def relaxation(model: CompiledRotor, trimmed: Trimmed, motion: tuple[np.ndarray, np.ndarray]) -> _core.Exchange:
     """The relaxation wake of a trim in flight; periodic motion (n, n_modes) of its blades."""
     inflow = model.inflow
     renewal = {"every": steps_of(model, inflow.update_interval), "most": inflow.max_loops_response}
@@ -195,7 +198,7 @@ def exchange_from(model: CompiledRotor, packed: bytes) -> Exchange:
     return MarchingExchange(model, None, core) if model.inflow.name == "time-marching" else Exchange(model, core)
 
 
-def exchange_of(model: CompiledRotor, trimmed: WakeInTrim | None, motion: Callable[[], Any]) -> Exchange:
+def exchange_of(model: CompiledRotor, trimmed: Trimmed | None, motion: Callable[[], Any]) -> Exchange:
     """The exchange of `model` from the wake of a trim; `motion` gives the periodic motion of its blades."""
     kinds: dict[str, Callable[[], Exchange]] = {
         "dynamic": lambda: Exchange(model, dynamic(model)),

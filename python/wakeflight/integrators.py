@@ -110,7 +110,7 @@ class IdaIntegrator:
         guess = np.zeros(y.size) if self._rate is None else self._rate
         renew = self._found(t) == "dF/dy"
         self._found_at["dF/dy_dot"] = t
-        self._rate = self._linearised.consistent(self.model.core, t, y, guess, inputs, renew)
+        self._rate = self._linearised.consistent(self.model.core, (t, y), guess, inputs, renew)
         return self._rate
 
     def _found(self, t: float) -> str | None:

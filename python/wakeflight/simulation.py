@@ -176,7 +176,7 @@ class Simulation:
         self.solver = INTEGRATORS[integrator](model, rtol, atol_scale=rtol / RTOL)
         self.seconds = {"wake": 0.0, "dynamics": 0.0}
         self._y, self._step = start.state(0.0), 0
-        self._stick, self._incidence = start.stick_si, start.stabilator_incidence
+        self._stick, self._incidence = self._asked(None), start.stabilator_incidence
 
     @property
     def t(self) -> float:
@@ -201,7 +201,7 @@ class Simulation:
         roll = np.arctan2(2 * (w * x + i * z), 1 - 2 * (x * x + i * i))
         pitch = np.arcsin(np.clip(2 * (w * i - z * x), -1, 1))
         yaw = np.arctan2(2 * (w * z + x * i), 1 - 2 * (i * i + z * z))
-        about_trim = (self._stick - self.start.stick_si) / INCH
+        about_trim = (self._stick - self._asked(None)) / INCH
         stick = dict(zip(STICKS, about_trim.tolist(), strict=True))
         return State(self.t, y, y[:3], y[3:6], np.array([roll, pitch, yaw]), y[10:13], stick)
 
@@ -235,8 +235,7 @@ class Simulation:
 
     def _asked(self, sticks: Mapping[str, float] | Sequence[float] | None) -> np.ndarray:
         """Sticks [m from the stop] for what was asked [inches about trim]."""
-        if sticks is None:
-            return self.start.stick_si
+        sticks = {} if sticks is None else sticks
         if isinstance(sticks, Mapping):
             for name in sticks:
                 if name not in STICKS:
@@ -249,8 +248,8 @@ class Simulation:
         if asked.shape != (4,) or not np.isfinite(asked).all():
             raise InputError.of("sticks", sticks, "must be four finite numbers, inches about trim")
         inches = self.start.stick_si / INCH + asked
-        for name, value, full in zip(STICKS, inches, self.start.aircraft.stick_travel_in, strict=True):
-            if not -1e-9 <= value <= full + 1e-9:
+        for name, moved, value, full in zip(STICKS, asked, inches, self.start.aircraft.stick_travel_in, strict=True):
+            if moved and not -1e-9 <= value <= full + 1e-9:
                 raise InputError.of(name, f"{value:.4g} in from the stop", f"must lie between 0 and {full:g} in")
         return INCH * inches
 

@@ -1,6 +1,6 @@
 //! The aircraft: F, its Jacobian, trim equations, exchange with the wake, outputs.
 
-use crate::checks::{pack, unpack};
+use crate::checks::{pack, sized, unpack};
 use crate::rotor::{motion, rotor_constants};
 use numpy::ndarray::Array;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
@@ -49,6 +49,23 @@ impl PyInputs {
             }
         };
         Ok(Self(Inputs { stick, stick_rate, t_start, inflow, stabilator_incidence }))
+    }
+}
+
+impl PyInputs {
+    /// The inputs, which must have an inflow of `aircraft`'s stations.
+    pub(crate) fn fitting(&self, aircraft: &Aircraft) -> PyResult<&Inputs> {
+        let (found, rotor) = (&self.0.inflow, &aircraft.rotor);
+        let needed = rotor.n_blades * rotor.blade.stations.len();
+        match found {
+            HeldInflow::Stations { inflow, .. } if inflow.len() != needed => {
+                Err(invalid(format!("inflow has {} numbers, {needed} needed", inflow.len())))
+            }
+            HeldInflow::Dynamic if !aircraft.layout.dynamic_inflow => {
+                Err(invalid("inflow: needed, this aircraft has no inflow states"))
+            }
+            _ => Ok(&self.0),
+        }
     }
 }
 
@@ -165,7 +182,10 @@ impl PyAircraft {
         inputs: &PyInputs,
         mut out: PyReadwriteArray1<f64>,
     ) -> PyResult<()> {
-        self.inner.residual_of_four(t, y.as_slice()?, y_dot.as_slice()?, &inputs.0, out.as_slice_mut()?);
+        let n = self.inner.layout.len();
+        let (y, y_dot) = (sized("y", y.as_slice()?, n)?, sized("y_dot", y_dot.as_slice()?, n)?);
+        sized("out", out.as_slice()?, n)?;
+        self.inner.residual_of_four(t, y, y_dot, inputs.fitting(&self.inner)?, out.as_slice_mut()?);
         Ok(())
     }
 
@@ -179,7 +199,11 @@ impl PyAircraft {
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let rate = self
             .inner
-            .consistent_rate(t, y.as_slice()?, &inputs.0)
+            .consistent_rate(
+                t,
+                sized("y", y.as_slice()?, self.inner.layout.len())?,
+                inputs.fitting(&self.inner)?,
+            )
             .map_err(|e| pyo3::exceptions::PyArithmeticError::new_err(e.to_string()))?;
         Ok(rate.into_pyarray(py))
     }
@@ -412,7 +436,9 @@ impl PyAircraft {
         y_dot: PyReadonlyArray1<f64>,
         inputs: &PyInputs,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let o = self.inner.outputs(t, y.as_slice()?, y_dot.as_slice()?, &inputs.0);
+        let n = self.inner.layout.len();
+        let (y, y_dot) = (sized("y", y.as_slice()?, n)?, sized("y_dot", y_dot.as_slice()?, n)?);
+        let o = self.inner.outputs(t, y, y_dot, inputs.fitting(&self.inner)?);
         let n_blades = self.inner.rotor.n_blades;
         let d = PyDict::new(py);
         d.set_item("force", o.force)?;

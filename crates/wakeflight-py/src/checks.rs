@@ -6,12 +6,17 @@ use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use serde::{Deserialize, Serialize};
 
+/// `values`, which must be `n` numbers; whether they are finite is for the solver to say.
+pub fn sized<'a>(name: &str, values: &'a [f64], n: usize) -> PyResult<&'a [f64]> {
+    if values.len() == n {
+        return Ok(values);
+    }
+    Err(PyValueError::new_err(format!("{name} has {} numbers, {n} needed", values.len())))
+}
+
 /// `values`, which must be `n` finite numbers.
 pub fn numbers<'a>(name: &str, values: &'a [f64], n: usize) -> PyResult<&'a [f64]> {
-    if values.len() != n {
-        return Err(PyValueError::new_err(format!("{name} has {} numbers, {n} needed", values.len())));
-    }
-    match values.iter().position(|v| !v.is_finite()) {
+    match sized(name, values, n)?.iter().position(|v| !v.is_finite()) {
         Some(i) => Err(PyValueError::new_err(format!("{name} is not finite at index {i}"))),
         None => Ok(values),
     }

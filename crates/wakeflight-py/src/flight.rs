@@ -1,7 +1,7 @@
 //! Fixed-step integration and derivatives for a solver from elsewhere: conversions and checks, the GIL released.
 
 use crate::aircraft::{PyAircraft, PyInputs};
-use crate::checks::{numbers, pack, unpack};
+use crate::checks::{numbers, pack, sized, unpack};
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1, PyReadwriteArray2};
 use pyo3::exceptions::{PyArithmeticError, PyValueError};
 use pyo3::prelude::*;
@@ -44,7 +44,8 @@ impl PyFixedStep {
 
     /// Linearises at the present state; the rate then satisfies F = 0 with `inputs`.
     fn prepare(&mut self, py: Python<'_>, aircraft: &PyAircraft, inputs: &PyInputs) -> PyResult<()> {
-        py.detach(|| self.inner.prepare(&aircraft.inner, &inputs.0)).map_err(failed)
+        let inputs = inputs.fitting(&aircraft.inner)?;
+        py.detach(|| self.inner.prepare(&aircraft.inner, inputs)).map_err(failed)
     }
 
     /// Integrates to `t1` [s] in `parts` equal steps with `inputs` held.
@@ -56,7 +57,8 @@ impl PyFixedStep {
         inputs: &PyInputs,
         parts: usize,
     ) -> PyResult<()> {
-        py.detach(|| self.inner.advance(&aircraft.inner, t1, &inputs.0, parts)).map_err(failed)
+        let inputs = inputs.fitting(&aircraft.inner)?;
+        py.detach(|| self.inner.advance(&aircraft.inner, t1, inputs, parts)).map_err(failed)
     }
 
     /// State.
@@ -121,12 +123,12 @@ impl PyExplicitStep {
 
     /// The rate then satisfies F = 0 with `inputs`.
     fn prepare(&mut self, aircraft: &PyAircraft, inputs: &PyInputs) -> PyResult<()> {
-        self.inner.prepare(&aircraft.inner, &inputs.0).map_err(stopped)
+        self.inner.prepare(&aircraft.inner, inputs.fitting(&aircraft.inner)?).map_err(stopped)
     }
 
     /// Integrates to `t1` [s] in `parts` equal steps with `inputs` held.
     fn advance(&mut self, aircraft: &PyAircraft, t1: f64, inputs: &PyInputs, parts: usize) -> PyResult<()> {
-        self.inner.advance(&aircraft.inner, t1, &inputs.0, parts).map_err(stopped)
+        self.inner.advance(&aircraft.inner, t1, inputs.fitting(&aircraft.inner)?, parts).map_err(stopped)
     }
 
     /// State.
@@ -179,23 +181,22 @@ impl PyLinearised {
     }
 
     /// y_dot that satisfies F = 0 at (t, y), from the guess `y_dot`; linearises there (`renew`), or finds dF/dy_dot alone.
-    #[allow(clippy::too_many_arguments, reason = "the arguments of F")]
     fn consistent<'py>(
         &mut self,
         py: Python<'py>,
         aircraft: &PyAircraft,
-        t: f64,
-        y: PyReadonlyArray1<f64>,
+        (t, y): (f64, PyReadonlyArray1<f64>),
         y_dot: PyReadonlyArray1<f64>,
         inputs: &PyInputs,
         renew: bool,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        let (y, mut rate) = (y.as_slice()?, y_dot.as_slice()?.to_vec());
         let (linear, aircraft) = (&mut self.inner, &aircraft.inner);
+        let (n, inputs) = (aircraft.layout.len(), inputs.fitting(aircraft)?);
+        let (y, mut rate) = (sized("y", y.as_slice()?, n)?, sized("y_dot", y_dot.as_slice()?, n)?.to_vec());
         let solved = if renew {
-            linear.consistent(aircraft, t, y, &mut rate, &inputs.0)
+            linear.consistent(aircraft, t, y, &mut rate, inputs)
         } else {
-            linear.consistent_by_mass(aircraft, t, y, &mut rate, &inputs.0)
+            linear.consistent_by_mass(aircraft, t, y, &mut rate, inputs)
         };
         solved.map_err(|e| PyArithmeticError::new_err(e.to_string()))?;
         Ok(rate.into_pyarray(py))
@@ -210,7 +211,9 @@ impl PyLinearised {
         y_dot: PyReadonlyArray1<f64>,
         inputs: &PyInputs,
     ) -> PyResult<()> {
-        self.inner.renew(&aircraft.inner, t, y.as_slice()?, y_dot.as_slice()?, &inputs.0);
+        let n = aircraft.inner.layout.len();
+        let (y, y_dot) = (sized("y", y.as_slice()?, n)?, sized("y_dot", y_dot.as_slice()?, n)?);
+        self.inner.renew(&aircraft.inner, t, y, y_dot, inputs.fitting(&aircraft.inner)?);
         Ok(())
     }
 
@@ -222,12 +225,15 @@ impl PyLinearised {
         y: PyReadonlyArray1<f64>,
         inputs: &PyInputs,
     ) -> PyResult<()> {
-        self.inner.renew_mass(&aircraft.inner, t, y.as_slice()?, &inputs.0);
+        let y = sized("y", y.as_slice()?, aircraft.inner.layout.len())?;
+        self.inner.renew_mass(&aircraft.inner, t, y, inputs.fitting(&aircraft.inner)?);
         Ok(())
     }
 
     /// dF/dy + c dF/dy_dot of the instant last linearised at, into `out` (n, n).
     fn matrix(&self, c: f64, mut out: PyReadwriteArray2<f64>) -> PyResult<()> {
+        let n = self.inner.slopes.layout().len();
+        sized("out", out.as_slice()?, n * n)?;
         self.inner.slopes.dense(1.0, c, out.as_slice_mut()?);
         Ok(())
     }

@@ -5,6 +5,7 @@ mod aircraft;
 mod atmosphere;
 mod blade;
 mod checks;
+mod core;
 mod exchange;
 mod flight;
 mod inflow;
