@@ -3,14 +3,12 @@
 One condition is one call of `one`, a plain dictionary in and out, so that several can be run at once.
 """
 
-import os
 import time
-from concurrent.futures import ProcessPoolExecutor
-from multiprocessing import get_context
 
 import numpy as np
 
 import wakeflight as wf
+from wakeflight.studies import attempt
 
 KNOT = 0.514444
 HOLD_SECONDS = 2.0
@@ -64,19 +62,15 @@ def others(aircraft, inflow, coarse=False):
 
 def one(given):
     """Trim `given`; with `fly` also fly it hands off. Figures by name; `failure` is empty where all went well."""
-    os.environ["WAKEFLIGHT_THREADS"] = "1"
     c = dict(given)
     aircraft = wf.load_aircraft(c.pop("aircraft"))
     inflow, fly, _ = c.pop("inflow"), c.pop("fly", False), c.pop("kind")
-    found = {**given, "failure": "", "named": True, "warnings": ()}
-    begun = time.perf_counter()
-    try:
-        start = wf.trim(aircraft, wf.FlightCondition(**c), inflow="relaxation" if fly else inflow)
-    except wf.NumericalFailure as reason:
-        return {**found, "failure": str(reason), "seconds": time.perf_counter() - begun}
-    except Exception as reason:
-        text = f"{type(reason).__name__}: {reason}"
-        return {**found, "failure": text, "named": False, "seconds": time.perf_counter() - begun}
+    made_with = wf.inflow_model("relaxation" if fly else inflow)
+    trimmed = attempt(lambda: wf.trim(aircraft, wf.FlightCondition(**c), inflow=made_with), Exception)
+    found = {**given, "failure": trimmed.failure, "named": trimmed.foreseen, "warnings": (), "seconds": trimmed.seconds}
+    if trimmed.failure:
+        return found
+    start = trimmed.answer
     mean = start.mean_outputs()
     found |= {
         "warnings": start.warnings,
@@ -88,26 +82,24 @@ def one(given):
         **start.stick,
     }
     if fly:
-        found |= flown(start, inflow)
-    return {**found, "seconds": time.perf_counter() - begun}
+        result = flown(start, inflow)
+        found |= result | {"seconds": trimmed.seconds + result["seconds"]}
+    return found
 
 
 def flown(start, inflow, maneuver=None):
     """Extremes of a flight with sticks held (or of `maneuver`)."""
     hold = maneuver or wf.Maneuver("hold", (("lateral", ((0.0, 0.0), (0.1, 0.0))),), seconds=HOLD_SECONDS)
-    failure, named = "", True
-    try:
-        flight = wf.fly(start, hold, inflow=inflow, integrator="fixed")
-    except wf.NumericalFailure as reason:
-        flight, failure = reason.partial, str(reason)
+    done = attempt(lambda: wf.fly(start, hold, inflow=inflow, integrator="fixed"))
+    flight, told = done.answer, {"failure": done.failure, "named": done.foreseen, "seconds": done.seconds}
     if flight is None:
-        return {"failure": failure, "named": named}
+        return told
     data, weight = flight.data, start.condition.weight
     load_factor = -data.force_z.values / weight
     rates = np.degrees(np.array([data[name].values for name in "pqr"]))
     mean, tip = data.inflow_mean.values, start.model.tip_speed
     return {
-        "failure": failure,
+        **told,
         "flight_warnings": flight.warnings,
         "end": float(data.time[-1]),
         "finite": bool(np.isfinite(data.inflow).all() and np.isfinite(data.force_z).all()),
@@ -141,15 +133,8 @@ def random_maneuver(seed, stick, travel, seconds=3.0, amplitude=1.0):
 
 def random_flight(given):
     """One random manoeuvre of `seed` at `speed` [kt] with the time-marching wake."""
-    os.environ["WAKEFLIGHT_THREADS"] = "1"
     speed, seed = given
     begun = time.perf_counter()
     start = wf.trim(wf.load_aircraft("uh60a"), wf.FlightCondition(speed=f"{speed} kt", flight_path="0 deg"))
     found = flown(start, "time-marching", random_maneuver(seed, start.stick, start.aircraft.stick_travel_in))
     return {"speed": speed, "seed": seed, **found, "seconds": time.perf_counter() - begun}
-
-
-def several(function, given, workers=None):
-    """`function` of every entry, in order, in processes of their own."""
-    with ProcessPoolExecutor(workers or os.cpu_count(), mp_context=get_context("spawn")) as pool:
-        return list(pool.map(function, given, chunksize=1))

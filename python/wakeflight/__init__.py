@@ -19,7 +19,6 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from .aircraft import Aircraft, Rotor, load_aircraft, load_rotor
     from .condition import FlightCondition, condition_for
-    from .converge import converge
     from .errors import InputError, NumericalFailure, WakeflightError
     from .flight import Flight, fly
     from .inflow import AnnularInflow, DynamicInflow, RelaxationWake, TimeMarchingWake, inflow_model
@@ -28,6 +27,7 @@ if TYPE_CHECKING:
     from .references import bibtex
     from .simulation import Simulation
     from .snapshot import Snapshot
+    from .studies.converge import converge
     from .trim import Trim, trim
     from .tunnel import Tunnel, tunnel
     from .vortex import induced_velocity
@@ -40,7 +40,7 @@ _HOME = {
     "load_rotor": "aircraft",
     "FlightCondition": "condition",
     "condition_for": "condition",
-    "converge": "converge",
+    "converge": "studies.converge",
     "InputError": "errors",
     "NumericalFailure": "errors",
     "WakeflightError": "errors",

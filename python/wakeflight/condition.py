@@ -5,14 +5,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
 from . import regime as regimes
 from .errors import InputError
 from .units import STANDARD_GRAVITY, convert, mass_of_weight, quantity, shown
-
-if TYPE_CHECKING:
-    from .aircraft import Aircraft
 
 HEADING_FREE_SPEED = convert(60.0, "kt", "m/s")
 """Speed [m/s] from which trim asks for zero bank, heading free."""
@@ -50,6 +47,13 @@ def described(values: dict[str, Any]) -> str:
             value = shown(value, "kg")
         parts.append(f"{name.replace('_', ' ')} {value}")
     return ", ".join(parts)
+
+
+class Completing(Protocol):
+    """What fills in a condition: an aircraft."""
+
+    def default(self, name: str, named: str | None = None) -> Any:
+        """A value of its own condition, or of the one it calls `named`."""
 
 
 @dataclass(frozen=True, init=False)
@@ -123,7 +127,7 @@ class FlightCondition:
         across, up = self.speed * math.cos(self.flight_path), self.speed * math.sin(self.flight_path)
         return regimes.regime(across, up, tip_speed)
 
-    def completed(self, aircraft: Aircraft, named: str | None = None) -> FlightCondition:
+    def completed(self, aircraft: Completing, named: str | None = None) -> FlightCondition:
         """This condition completed by the aircraft; `named`: one of its alternative conditions."""
         values = {field.name: getattr(self, field.name) for field in fields(self)}
         for name in ("speed", "flight_path", "altitude", "gross_mass"):
@@ -164,7 +168,7 @@ class FlightCondition:
 
 
 def condition_for(
-    aircraft: Aircraft, condition: FlightCondition | None = None, named: str | None = None, **given: Any
+    aircraft: Completing, condition: FlightCondition | None = None, named: str | None = None, **given: Any
 ) -> FlightCondition:
     """Complete condition: `condition`, or one made of `given` (text with units); the rest from the aircraft.
 

@@ -10,11 +10,12 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from . import _core, disk
+from . import _core
 from .aircraft import Aircraft
 from .condition import FlightCondition
 from .inflow import DynamicInflow, InflowModel, RelaxationWake, TimeMarchingWake
 from .monitors import Bounds, bounds
+from .results import disk
 from .units import STANDARD_GRAVITY
 
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """Velocity induced by vortex filaments."""
 
 from collections.abc import Sequence

@@ -3,7 +3,7 @@
 import numpy as np
 import synthetic
 
-from wakeflight.paper.cases import base_cases, question_cases
+from wakeflight.studies.paper.cases import base_cases, question_cases
 
 COUNTED = {
     "segment_evaluations_trim": 40_000_000,
@@ -16,6 +16,8 @@ COUNTED = {
     "convergence_change": [0.1 ** (k + 1) for k in range(10)],
     "segment_evaluations_convergence": 60_000_000,
     "configuration.inflow.convergence_revolutions": 10,
+    "condition.altitude": 1600.2,
+    "condition.gross_mass": 7257.5,
 }
 
 

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from wakeflight import cli
+from wakeflight.cli import outcome
 from wakeflight.errors import InputError, NumericalFailure
 
 FLY = ["fly", "arrested-descent"]
@@ -29,7 +30,7 @@ def _nothing_starts(monkeypatch):
     def started(*_args):
         raise AssertionError("started")
 
-    monkeypatch.setattr(cli, "_fly_once", started)
+    monkeypatch.setattr(outcome, "fly_once", started)
     monkeypatch.delenv("WAKEFLIGHT_THREADS", raising=False)
 
 
@@ -150,7 +151,7 @@ def test_a_checked_request_is_handed_on(monkeypatch, tmp_path):
     def record(request, revolutions, integrator, out, progress):
         seen.update(request=request, revolutions=revolutions, integrator=integrator, out=out)
 
-    monkeypatch.setattr(cli, "_fly_once", record)
+    monkeypatch.setattr(outcome, "fly_once", record)
     typed = ["--speed", "60 kt", "--revolutions", "2", "--azimuth-step", "5 deg", "--wake-turns", "3"]
     with pytest.raises(SystemExit) as caught:
         cli.main([*FLY, *typed, "--wake-scheme", "pc2b", "--out", str(tmp_path / "a" / "b")])
@@ -177,7 +178,7 @@ def test_errors_become_one_line_and_their_exit_code(capsys, monkeypatch, error, 
     def fail(*_args):
         raise error
 
-    monkeypatch.setattr(cli, "_fly_once", fail)
+    monkeypatch.setattr(outcome, "fly_once", fail)
     found, _, err = _run(capsys, FLY)
     assert found == code
     assert err.strip().splitlines()[-1].startswith("wakeflight: ")
@@ -191,7 +192,7 @@ def test_a_failed_flight_is_saved_before_exit_code_3(monkeypatch, tmp_path):
         failure = "flight: no step possible at 1.2 s"
 
     monkeypatch.undo()
-    monkeypatch.setattr(cli, "_save", lambda flight, out, progress: saved.append(out))
+    monkeypatch.setattr(outcome, "save_flight", lambda flight, out, progress: saved.append(out))
     monkeypatch.setitem(sys.modules, "wakeflight.trim", _module(trim=lambda *a, **k: "start"))
     monkeypatch.setitem(sys.modules, "wakeflight.flight", _module(fly=lambda *a, **k: Flight()))
     with pytest.raises(SystemExit) as caught:
@@ -261,5 +262,5 @@ def test_what_a_verb_had_computed_is_saved_where_it_fails():
 
     for partial in ("half", None):
         with pytest.raises(NumericalFailure):
-            cli._keeping(fails, saved.append)(partial)
+            outcome.keeping(fails, saved.append)(partial)
     assert saved == ["half"]

@@ -4,10 +4,10 @@
 import numpy as np
 import pytest
 
-from wakeflight.converge.estimate import estimate, geometric
-from wakeflight.converge.parameters import Setting, parameter
-from wakeflight.converge.runs import Outcome, Quantity
-from wakeflight.converge.study import Study
+from wakeflight.studies.converge.estimate import estimate, geometric
+from wakeflight.studies.converge.parameters import Setting, parameter
+from wakeflight.studies.converge.runs import Outcome, Quantity
+from wakeflight.studies.converge.study import Study
 
 SIZES = np.array([4.0, 2.0, 1.0])
 TIMES = np.linspace(0.0, 1.0, 7)

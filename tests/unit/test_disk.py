@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 
 import wakeflight as wf
-from wakeflight.disk import area_weights, disk_mean, element_widths, first_harmonics
 from wakeflight.plotting.disk import harmonics
+from wakeflight.results.disk import area_weights, disk_mean, element_widths, first_harmonics
 from wakeflight.trim_results import first_harmonics as of_trim
 
 

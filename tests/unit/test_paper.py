@@ -2,6 +2,7 @@
 
 import base64
 import json
+import re
 
 import numpy as np
 import paper_runs
@@ -9,11 +10,12 @@ import pytest
 import synthetic
 import xarray as xr
 
-from wakeflight.paper import cases, cost, quantities, viewer
-from wakeflight.paper.figures import FIGURES
-from wakeflight.paper.statements import VERDICTS, counts, judge
-from wakeflight.paper.statements.conclusions import lag
-from wakeflight.paper.statements.verdict import Statement, larger, within
+from wakeflight.studies.paper import cases, cost, quantities, viewer
+from wakeflight.studies.paper.figures import FIGURES
+from wakeflight.studies.paper.statements import VERDICTS, counts, judge
+from wakeflight.studies.paper.statements.conclusions import lag
+from wakeflight.studies.paper.statements.reasons import REASONS, reason
+from wakeflight.studies.paper.statements.verdict import Statement, larger, within
 
 
 @pytest.fixture(scope="module")
@@ -92,6 +94,91 @@ def test_every_statement_is_judged(runs):
     table = judge(runs)
     assert sum(counts(table).values()) == len(table) > 40
     assert [row.key for row in table if not row.conditions] == ["conclusion 6"]
+
+
+HISTORIES = (
+    "inflow_mean",
+    "w",
+    "p",
+    "q",
+    "roll",
+    "pitch",
+    "force_z",
+    "moment_y",
+    "beta_1c",
+    "beta_1s",
+    "lateral",
+    "ct",
+)
+
+
+def other(runs, seed):
+    """The same flights with everything bent, slowed, raised or lowered at random: data nobody has seen."""
+    random, made = np.random.default_rng(seed), {}
+    for name, run in runs.items():
+        taken = run.copy(deep=True)
+        taken.attrs |= {"ct_sigma": random.uniform(0.04, 0.1), "power": random.uniform(2e5, 9e5), "revolutions": 11.0}
+        taken.attrs |= {"seconds_wake": random.uniform(1.0, 9.0), "unconverged_revolutions": int(random.integers(9))}
+        taken.attrs |= {"segment_evaluations_convergence": int(random.uniform(1e6, 5e7))}
+        t = taken.time.values
+        for variable in HISTORIES:
+            if variable not in taken:
+                continue
+            values = taken[variable].values
+            a, b, rate = random.uniform(-2.0, 2.0, 3)
+            moved = a * (values - values[0]) + b * np.ptp(values) * np.sin(9 * rate * t) * t
+            taken[variable] = ("time", values[0] * random.uniform(0.5, 1.5) + moved)
+        psi = taken["azimuth"].values[:, :, None]
+        for variable in ("inflow", "cl", "cl_m2"):
+            a, b, c, d = random.uniform(-1.5, 1.5, 4)
+            waved = a + b * t[:, None, None] + c * np.cos(psi) + d * np.sin(psi)
+            taken[variable] = taken[variable].copy(data=taken[variable].values * waved)
+        if "wake" in taken:
+            bent = taken["wake"].values.copy()
+            n, ages = bent.shape[0], np.arange(bent.shape[2]) / bent.shape[2]
+            lift = random.normal(0.0, 1.0, n)
+            if seed == 0 and name.startswith("arrested-descent"):
+                # relaxation ahead after each update, behind before it
+                taken["snapshot_revolution"] = ("snapshot", [4.75, 5.0, 8.0, 10.0])
+                lift = np.array([-9.0, 9.0, 9.0, 9.0]) * name.endswith("/relaxation")
+            bent[..., 2] += lift[:, None, None] * ages**2
+            edge = np.abs(bent[..., 1]) > 0.7 * synthetic.RADIUS
+            bent[..., 0] += np.where(edge, *random.uniform(0.0, 2.0, 2)) * (ages if seed % 2 else 1.0)
+            taken["wake"] = taken["wake"].copy(data=bent)
+        made[name] = taken
+    return made
+
+
+@pytest.fixture(scope="module")
+def others(runs):
+    return [other(runs, seed) for seed in range(12)]
+
+
+def words(text):
+    return re.sub(r"[-+]?\d[\d.]*", "#", text)
+
+
+NUMBERS_ALONE = {"text, condition", "text, durations", "text, rates", "cost, coupled", "cost, over all", "conclusion 4"}
+"""Reasons that only state numbers: they compare nothing and name no cause."""
+
+
+@pytest.mark.parametrize("key", REASONS)
+def test_what_the_page_concludes_changes_with_the_data(runs, others, key):
+    # prose that stood whatever was flown would be no conclusion
+    texts = {reason(key, data) for data in (runs, *others)}
+    assert len(texts) > 1
+    assert len({words(text) for text in texts}) > 1 or key in NUMBERS_ALONE
+
+
+def test_a_cause_is_not_named_where_the_data_do_not_bear_it(runs):
+    # equal wakes: nothing overshoots, nothing is late, nothing bends more
+    flat = {name: run.assign(inflow_mean=0.02 + 0.0 * run["inflow_mean"]) for name, run in runs.items()}
+    for maneuver in cases.MANEUVERS:
+        flat[f"{maneuver}/relaxation"] = flat[f"{maneuver}/time-marching"]
+    assert "overshoots" not in reason("Fig. 5b", flat)
+    assert "no mark of memory" not in reason("Fig. 19", flat)
+    assert "ahead" not in reason("Fig. 11", flat)
+    assert "the old wake misses more" not in reason("conclusion 5", flat)
 
 
 def test_the_view_holds_the_wake_to_a_millimetre(runs):

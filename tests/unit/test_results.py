@@ -5,7 +5,7 @@ import pytest
 import synthetic
 
 from wakeflight.results import ResultsError, assemble, assemble_trim, flat_attributes, load, save
-from wakeflight.schema import RUN, TRIM
+from wakeflight.results.schema import RUN, TRIM
 
 
 def test_every_variable_has_a_unit_and_a_meaning():

@@ -51,7 +51,7 @@ window.addEventListener("load", () => {
 @pytest.mark.slow
 @pytest.mark.skipif(BROWSER is None, reason="no browser installed: chromium, chromium-browser or google-chrome")
 def test_the_slider_moves_the_wake_in_a_browser(tmp_path):
-    from wakeflight.paper.page import write
+    from wakeflight.studies.paper.page import write
 
     path = write(paper_runs.runs(), tmp_path, ROTOR)
     text = path.read_text()

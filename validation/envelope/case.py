@@ -3,9 +3,10 @@
 import re
 
 import numpy as np
-from envelope_runs import SPEEDS, WEIGHTS, level, one, others, random_flight, several
+from envelope_runs import SPEEDS, WEIGHTS, level, one, others, random_flight
 
 from wakeflight.plotting import style
+from wakeflight.studies import several
 from wakeflight.validate import Check, Outcome
 
 LARGEST_INFLOW = 0.3

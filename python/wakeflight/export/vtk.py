@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """Wake snapshots for ParaView: one PolyData file (.vtp) per snapshot, and a time series (.pvd)."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """Figures: one file each, pure functions from a dataset to a figure; `FIGURES` lists those of a run."""
 
 from __future__ import annotations

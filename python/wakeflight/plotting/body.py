@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """Body velocities, rates and attitude over time."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """Several runs of one manoeuvre side by side: inflow maps and wakes by model, and what each model cost."""
 
 from __future__ import annotations

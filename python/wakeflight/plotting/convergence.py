@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """Error against cost of the settings of a convergence study."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """Maps over the rotor disk: binning of one revolution, and the drawing with the nose to the left.
 
 x_h (aft) is drawn to the right and y_h (right) upward: nose left, azimuth counter-clockwise from the
@@ -13,7 +14,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from ..disk import area_weights, element_widths, first_harmonics
+from ..results.disk import area_weights, element_widths, first_harmonics
 from . import style
 
 if TYPE_CHECKING:
@@ -71,7 +72,7 @@ def difference(field: xr.DataArray, reference: xr.DataArray) -> xr.DataArray:
 
 
 def harmonics(field: xr.DataArray) -> tuple[float, float, float]:
-    """Mean and first harmonics of a disk map (psi, station): see `wakeflight.disk.first_harmonics`."""
+    """Mean and first harmonics of a disk map (psi, station): see `results.disk.first_harmonics`."""
     psi, station = field[field.dims[0]].values, field[field.dims[1]].values
     return first_harmonics(field.values, psi, station, area_weights(station, element_widths(station)))
 

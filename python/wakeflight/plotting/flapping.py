@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """Tilt of the rotor disk over time."""
 
 from __future__ import annotations

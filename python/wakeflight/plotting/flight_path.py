@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """The path flown: from the side and from above."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """Time histories in panels: one run, or several runs of one manoeuvre over each other."""
 
 from __future__ import annotations
@@ -9,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.figure import Figure
 
+from ..results import by_name
 from . import style
 
 if TYPE_CHECKING:
@@ -42,7 +44,7 @@ class Panel:
 
 def as_mapping(runs: Runs) -> Mapping[str, xr.Dataset]:
     """Several runs by name; a single dataset becomes one run without a name."""
-    return runs if isinstance(runs, Mapping) and not hasattr(runs, "data_vars") else {"": runs}
+    return by_name(runs, "")
 
 
 def seconds_per_revolution(run: xr.Dataset) -> float:

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """Inflow over the disk in flight: at chosen revolutions, and its change from trim."""
 
 from __future__ import annotations

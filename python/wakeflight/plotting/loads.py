@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """Forces and moments on the airframe over time."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """Blade modes: shapes along the span, and the fan plot."""
 
 from __future__ import annotations

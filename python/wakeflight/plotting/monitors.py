@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """What tells whether the wake and the power behave: monitors over time, as far as the run has them."""
 
 from __future__ import annotations

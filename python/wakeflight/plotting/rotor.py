@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """The main rotor's hub loads over time."""
 
 from __future__ import annotations

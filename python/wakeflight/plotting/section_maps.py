@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """Section loading over the disk in flight: circulation, lift coefficient, and the lift itself as c_l M²."""
 
 from __future__ import annotations

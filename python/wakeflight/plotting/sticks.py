@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """Pilot's sticks over time, in inches from their stops."""
 
 from __future__ import annotations

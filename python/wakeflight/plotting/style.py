@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """One look for all figures: fonts, colours that colour-blind readers can tell apart, restrained axes."""
 
 from __future__ import annotations

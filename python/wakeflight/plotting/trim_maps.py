@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """Inflow at trim by two models, side by side with their difference: the paper's Figure 3."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """Tip vortices seen from the side, from above and from behind, at the snapshots of a run."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """One self-contained HTML page of a run or of several: summary, figures, configuration; nothing fetched."""
 
 from __future__ import annotations
@@ -6,10 +7,11 @@ import base64
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ..plotting import COMPARISONS, FIGURES, Plot
 from ..plotting.style import save
+from ..results import by_name
 from .summary import Row, configuration, counters, summary, trim_table, warnings, watched
 
 if TYPE_CHECKING:
@@ -39,9 +41,9 @@ def write(
 
     out_dir = Path(out_dir)
     out_dir.mkdir(parents=True, exist_ok=True)
-    named = _named(runs)
-    several = not hasattr(runs, "data_vars")
+    named = by_name(runs)
     first = next(iter(named.values()))
+    several = runs is not first
     environment = Environment(
         loader=PackageLoader("wakeflight.report", "templates"),
         autoescape=True,
@@ -63,13 +65,6 @@ def write(
     path = out_dir / "report.html"
     path.write_text(page, encoding="utf-8")
     return path
-
-
-def _named(runs: Any) -> dict[str, xr.Dataset]:
-    """Runs by name; a single one goes by its inflow model (a Dataset is a mapping too)."""
-    if hasattr(runs, "data_vars"):
-        return {str(runs.attrs.get("inflow_model", "run")): runs}
-    return dict(runs)
 
 
 def _title(run: xr.Dataset, several: bool) -> str:

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """What a reader wants to know of a run first, as rows of text: flight, trim, cost, counters, warnings."""
 
 from __future__ import annotations
@@ -10,7 +11,7 @@ import numpy as np
 
 from ..condition import described
 from ..plotting.disk import revolutions_flown
-from ..schema import ATTRIBUTES
+from ..results.schema import ATTRIBUTES
 
 if TYPE_CHECKING:
     import xarray as xr

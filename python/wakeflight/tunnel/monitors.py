@@ -3,19 +3,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from ..limits import stall_angles
 from ..monitors import Monitor, Places, rotor
 from ..trim_monitors import closest_vortex, table_end
-
-if TYPE_CHECKING:
-    from .results import Tunnel
+from .solved import Solved
 
 
-def monitors(stand: Tunnel) -> tuple[Monitor, ...]:
+def monitors(stand: Solved) -> tuple[Monitor, ...]:
     """Everything that is watched of a stand: every passage that went into its means, not the means."""
     model, solution, condition = stand.model, stand.solution, stand.model.condition
     tables = model.rotor_tables["airfoil"]
@@ -49,7 +45,7 @@ def monitors(stand: Tunnel) -> tuple[Monitor, ...]:
     return tuple(found)
 
 
-def found_pitch(stand: Tunnel) -> dict[str, float]:
+def found_pitch(stand: Solved) -> dict[str, float]:
     """Pitch that was found and not given [rad]: collective at three quarters of the radius, amplitude of the cyclic."""
     given = {name for name, _ in stand.model.condition.controls}
     found = {}
@@ -60,7 +56,7 @@ def found_pitch(stand: Tunnel) -> dict[str, float]:
     return found
 
 
-def _why(stand: Tunnel, mu: float, stalled: Monitor) -> str:
+def _why(stand: Solved, mu: float, stalled: Monitor) -> str:
     """What else is known of a stand whose pitch is out of reach."""
     return (
         f"theta_0, 1c, 1s = {', '.join(f'{np.degrees(each):.0f}' for each in stand.x[:3])} deg at mu = {mu:.3f}, C_T/sigma = "
@@ -69,7 +65,7 @@ def _why(stand: Tunnel, mu: float, stalled: Monitor) -> str:
     )
 
 
-def _axial(stand: Tunnel, mu: float, mu_z: float) -> Monitor:
+def _axial(stand: Solved, mu: float, mu_z: float) -> Monitor:
     """Axial flow; the stand's Dataset has mu_z of its own."""
     momentum = stand.model.is_dynamic or stand.model.is_annular
     return rotor.axial_flow(mu, mu_z, stand.ct, momentum)

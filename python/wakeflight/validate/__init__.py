@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """Reference cases: what the program says beside what is known, with a figure and a score for each."""
 
 from .case import Case, Check, Outcome

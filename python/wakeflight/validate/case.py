@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """A reference case: a folder with its data, its source and a function that asks the program for the same quantities."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """Where the cases are, and which of them are meant."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """One self-contained page of all cases: the score of each on top, then figure, numbers and plain words."""
 
 from __future__ import annotations

@@ -1,16 +1,15 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """Running cases: what each found, what it cost, and what stopped it."""
 
 from __future__ import annotations
 
 import base64
 import csv
-import time
-import traceback
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..errors import WakeflightError
+from ..studies import attempt
 from .case import Case, Check, Outcome
 
 
@@ -57,17 +56,11 @@ def run(case: Case, folder: Path | None = None) -> Result:
     """Run one case; its figure and numbers go to `folder`/<slug>. A failure of the case is a result, not an error."""
     if case.kind == "waits":
         return Result(case, None, 0.0)
-    begun = time.perf_counter()
-    try:
-        outcome = case.run()
-    except WakeflightError as reason:
-        return Result(case, None, time.perf_counter() - begun, str(reason))
-    except Exception as reason:
-        last = traceback.extract_tb(reason.__traceback__)[-1]
-        text = f"{type(reason).__name__}: {reason} ({Path(last.filename).name}, line {last.lineno})"
-        return Result(case, None, time.perf_counter() - begun, text)
-    seconds = time.perf_counter() - begun
-    return Result(case, outcome, seconds, png=_keep(case, outcome, folder) if folder is not None else "")
+    done = attempt(case.run, Exception)
+    if done.failure:
+        return Result(case, None, done.seconds, done.failure)
+    png = _keep(case, done.answer, folder) if folder is not None else ""
+    return Result(case, done.answer, done.seconds, png=png)
 
 
 def run_all(

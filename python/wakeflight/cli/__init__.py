@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""The command line: names in, everything checked before anything starts, one line for whatever is wrong.
+
+One file per command; `groups` declares the options that several share. Exit codes: 0 finished, 2 bad input, 3 numerical
+failure (what was computed is kept).
+"""
+
+from __future__ import annotations
+
+import sys
+
+import typer
+
+from ..errors import NumericalFailure, WakeflightError, one_line
+from . import compare, converge, fly, modes, paper, report, trim, tunnel, validate
+from .groups import expanded
+
+app = typer.Typer(
+    add_completion=False,
+    no_args_is_help=True,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+    help="Helicopters in unsteady manoeuvres with a time-accurate free vortex wake.",
+)
+
+for _command in (
+    fly.fly,
+    compare.compare,
+    trim.trim,
+    modes.modes,
+    report.report,
+    converge.converge,
+    validate.validate,
+    tunnel.tunnel,
+    paper.paper,
+):
+    # in the order in which help lists them
+    app.command()(expanded(_command))
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """Run the command line and exit; every expected error is one line on standard error."""
+    try:
+        code = app(args=arguments, prog_name="wakeflight", standalone_mode=False) or 0
+    except NumericalFailure as failure:
+        code = _complain(f"numerical failure: {failure}", failure.exit_code)
+    except WakeflightError as reason:
+        code = _complain(str(reason), reason.exit_code)
+    except KeyboardInterrupt:
+        code = _complain("interrupted", 130)
+    except Exception as reason:  # usage errors of the parser, which carry their own message
+        if not hasattr(reason, "format_message"):
+            raise
+        message = reason.format_message()
+        if type(reason).__name__.startswith("NoArgsIsHelp"):  # the message is the help text
+            print(message, file=sys.stderr)
+            code = 2
+        else:
+            code = _complain(message, 2)
+    sys.exit(code if isinstance(code, int) else 0)
+
+
+def _complain(message: str, code: int) -> int:
+    print(f"wakeflight: {one_line(message)}", file=sys.stderr)
+    return code

@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""`wakeflight fly`."""
+
+from __future__ import annotations
+
+from . import outcome
+from .groups import Blades, Condition, InflowName, Integrator, ManeuverName, Revolutions, Run, Vehicle, Wake
+from .request import check_flight, request
+
+
+def fly(
+    maneuver: ManeuverName,
+    *,
+    inflow: InflowName = "time-marching",
+    vehicle: Vehicle,
+    given: Condition,
+    revolutions: Revolutions = None,
+    wake: Wake,
+    integrator: Integrator = "ida",
+    blades: Blades = None,
+    run: Run,
+) -> None:
+    """Trim, fly a manoeuvre, write run.nc, figures and report.html."""
+    check_flight(revolutions, integrator)
+    asked = request(vehicle, given, inflow, wake, run, maneuver, blades)
+    from ..progress import Progress
+
+    with Progress() as progress:
+        outcome.fly_once(asked, revolutions, integrator, asked.out, progress)

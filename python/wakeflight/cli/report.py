@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""`wakeflight report`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ..errors import InputError
+from .groups import Out
+from .outcome import folder_made
+from .request import writable
+
+
+def report(
+    run: Annotated[Path, typer.Argument(metavar="RUN.nc", help="result of a finished run")],
+    out: Out = None,
+) -> None:
+    """Rebuild figures and report of a finished run, beside it or in --out."""
+    if not run.is_file():
+        raise InputError.of("RUN.nc", str(run), "no such file; allowed: the run.nc of a finished run")
+    folder = folder_made(writable(out or run.parent))
+    from .. import report as reports
+    from .. import results
+
+    reports.write(results.load(run), folder)
+    print(f"wrote {folder / 'report.html'}")
