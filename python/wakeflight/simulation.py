@@ -310,9 +310,11 @@ class Simulation:
 
     def restore(self, snapshot: Snapshot) -> None:
         """Go on from `snapshot`, of this simulation or of one of the same configuration from the same trim."""
-        if not isinstance(snapshot, Snapshot):
-            raise InputError.of("snapshot", type(snapshot).__name__, "must be what Simulation.snapshot returned")
-        snapshot.check(self.configuration)
+        try:
+            snapshot.check(self.configuration)
+        except AttributeError as reason:
+            kind = type(snapshot).__name__
+            raise InputError.of("snapshot", kind, "must be what Simulation.snapshot returned") from reason
         exchange = exchange_from(self.model, snapshot.parts["exchange"])
         y = np.frombuffer(snapshot.parts["y"], "<f8").copy()
         self.solver.recall(snapshot.step * self.delta_t, y, snapshot.parts["integrator"])
@@ -384,19 +386,18 @@ def flight_model(start: Trim, inflow: str | InflowModel | None) -> Model:
 
     What depends on the regime is that of the trimmed condition, and stays so where the manoeuvre leads into another.
     """
-    if inflow is None:
-        inflow = "dynamic" if isinstance(start.inflow, DynamicInflow) else "time-marching"
     trimmed = start.inflow
+    dynamic = trimmed.name == DynamicInflow.name
+    if inflow is None:
+        inflow = DynamicInflow.name if dynamic else TimeMarchingWake.name
     chosen = inflow_model(inflow)
-    if isinstance(chosen, DynamicInflow) != isinstance(trimmed, DynamicInflow):
-        needed = "dynamic" if isinstance(chosen, DynamicInflow) else "relaxation"
+    if (chosen.name == DynamicInflow.name) != dynamic:
+        needed = "relaxation" if dynamic else "dynamic"
         raise InputError.of("inflow", chosen.name, f"needs a trim with inflow='{needed}', this one used {trimmed.name}")
-    if isinstance(chosen, DynamicInflow):
+    if dynamic:
         return start.model
-    if isinstance(inflow, str) and not isinstance(trimmed, type(chosen)):
-        chosen = like(type(chosen), trimmed)
-    elif isinstance(inflow, str):
-        chosen = trimmed
+    if isinstance(inflow, str):
+        chosen = trimmed if trimmed.name == chosen.name else like(type(chosen), trimmed)
     regime = flight_regime(start.aircraft, start.condition)
     chosen = chosen.resolved(regime)
     before = trim_model(trimmed).resolved(regime).core_options(start.aircraft)

@@ -7,12 +7,12 @@ use crate::stand::{PyStand, hub_state};
 use numpy::PyReadonlyArray2;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use std::f64::consts::TAU;
 use wakeflight::aircraft::model::{HeldInflow, Inputs};
 use wakeflight::blade::aerodynamics::Air;
 use wakeflight::blade::kinematics::{ModalMotion, PitchMotion};
 use wakeflight::blade::loads::HubMotion;
 use wakeflight::rotor::circulation::BladeInstant;
+use wakeflight::rotor::exchange::azimuth;
 use wakeflight::rotor::hub::Rotor;
 use wakeflight::rotor::swashplate::MovingPitch;
 
@@ -101,7 +101,7 @@ impl Core<'_> {
         let still = vec![0.0; numbers("stick", stick, stick.len())?.len()];
         let mut blades = Vec::with_capacity(n);
         for (k, modal) in self.motions(motion, n)?.into_iter().enumerate() {
-            let psi = TAU * k as f64 / n as f64;
+            let psi = azimuth(k, n);
             blades.push(BladeInstant { psi, modal, control: self.pitch(stick, &still, psi)? });
         }
         Ok(blades)

@@ -9,10 +9,9 @@ use numpy::{IntoPyArray, PyArray2, PyArray3, PyArray4, PyReadonlyArray1, PyReado
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
-use std::f64::consts::TAU;
 use wakeflight::rotor::circulation::BladeInstant;
 use wakeflight::rotor::exchange::{
-    Changes, Exchange, MarchingExchange, Place, Reached, RelaxationExchange, SteadyWake, row,
+    Changes, Exchange, MarchingExchange, Place, Reached, RelaxationExchange, SteadyWake, azimuth, row,
 };
 use wakeflight::wake::TimeMarchingWake;
 
@@ -263,14 +262,14 @@ impl PyExchange {
         };
         let mut blades = Vec::with_capacity(self.n_blades);
         for (b, modal) in modal.into_iter().enumerate() {
-            let psi = TAU * row(step, b, self.n_blades, self.n) as f64 / self.n as f64;
+            let psi = azimuth(row(step, b, self.n_blades, self.n), self.n);
             blades.push(BladeInstant { psi, modal, control: core.pitch(stick, rate, psi)? });
         }
         let mut steady_pitch = Vec::new();
         if self.inner.renews(step) {
             let still = vec![0.0; stick.len()];
             for k in 0..self.n {
-                steady_pitch.push(core.pitch(stick, &still, TAU * k as f64 / self.n as f64)?);
+                steady_pitch.push(core.pitch(stick, &still, azimuth(k, self.n))?);
             }
         }
         let inner = &mut self.inner;

@@ -20,6 +20,7 @@ use crate::blade::loads::HubMotion;
 use crate::inflow::disk::{DiskMean, LiftingDisk};
 use crate::wake::{HubMotion as WakeHub, WakeError};
 use serde::{Deserialize, Serialize};
+use std::f64::consts::TAU;
 
 /// Rotor, air and motion of the hub at the exchange.
 #[derive(Clone, Copy)]
@@ -155,6 +156,11 @@ impl Exchange {
 /// Azimuth index of blade `b` of `n_blades` after `step` steps of `n` in a revolution.
 pub fn row(step: usize, b: usize, n_blades: usize, n: usize) -> usize {
     (step + b * n / n_blades) % n
+}
+
+/// Azimuth [rad] of row `k` of `n`.
+pub fn azimuth(k: usize, n: usize) -> f64 {
+    TAU * k as f64 / n as f64
 }
 
 /// Mean of a map (n_azimuths, width) over the step that begins: of its rows at the two ends, so that it does not lag.

@@ -1,6 +1,6 @@
 //! The relaxation wake in flight: the motion of the last revolution taken as steady, the wake renewed when it is due.
 
-use super::{Held, Lattice, Reached, SteadyWake, Tips, over_step, row};
+use super::{Held, Lattice, Reached, SteadyWake, Tips, azimuth, over_step, row};
 use crate::blade::MAX_MODES;
 use crate::blade::kinematics::ModalMotion;
 use crate::inflow::disk::DiskMean;
@@ -87,7 +87,7 @@ impl RelaxationExchange {
             .zip(reached.steady_pitch)
             .enumerate()
             .map(|(k, (at, control))| BladeInstant {
-                psi: std::f64::consts::TAU * k as f64 / n as f64,
+                psi: azimuth(k, n),
                 modal: ModalMotion { q: at.q, q_dot: at.q_dot, q_ddot: [0.0; MAX_MODES] },
                 control: *control,
             })
