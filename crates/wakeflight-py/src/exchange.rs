@@ -1,7 +1,7 @@
 //! The exchange with the air, and the steady wake of a trim: conversions and checks, the GIL released.
 
+use crate::carrier::Core;
 use crate::checks::{map, numbers, pack, unpack};
-use crate::core::Core;
 use crate::wake::{RelaxationWake, TimeMarchingWake as PyTimeMarchingWake, parse_options, py_error};
 use crate::wake::{lattice, matrix, vectors};
 use numpy::ndarray::Array;

@@ -185,14 +185,15 @@ impl PyLinearised {
         &mut self,
         py: Python<'py>,
         aircraft: &PyAircraft,
-        (t, y): (f64, PyReadonlyArray1<f64>),
+        at: (f64, PyReadonlyArray1<f64>),
         y_dot: PyReadonlyArray1<f64>,
         inputs: &PyInputs,
         renew: bool,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        let (linear, aircraft) = (&mut self.inner, &aircraft.inner);
+        let (linear, aircraft, t) = (&mut self.inner, &aircraft.inner, at.0);
         let (n, inputs) = (aircraft.layout.len(), inputs.fitting(aircraft)?);
-        let (y, mut rate) = (sized("y", y.as_slice()?, n)?, sized("y_dot", y_dot.as_slice()?, n)?.to_vec());
+        let (y, mut rate) =
+            (sized("y", at.1.as_slice()?, n)?, sized("y_dot", y_dot.as_slice()?, n)?.to_vec());
         let solved = if renew {
             linear.consistent(aircraft, t, y, &mut rate, inputs)
         } else {
