@@ -38,9 +38,23 @@ def lattice(n_trailers: int, steps: int, turns: int, summation: str) -> tuple[_c
     n_stations = max(20, n_trailers - 1)
     kind = {"trailers": "tip"} if n_trailers == 1 else {"trailers": "full-span", "n_trailers": n_trailers}
     options = {
-        **{"n_blades": 4, "radius": RADIUS, "root_cutout": 1.2, "hinge_offset": 0.4, "chord": 0.5, "omega": OMEGA},
-        **{"n_stations": n_stations, "turns": turns, "steps_per_revolution": steps, "summation": summation},
-        **kind,
+        "rotor": {
+            "n_blades": 4,
+            "radius": RADIUS,
+            "root_cutout": 1.2,
+            "hinge_offset": 0.4,
+            "chord": 0.5,
+            "omega": OMEGA,
+        },
+        "wake": {
+            "n_stations": n_stations,
+            "turns": turns,
+            "azimuth_step": 2 * np.pi / steps,
+            "summation": summation,
+            **kind,
+        },
+        "relaxation": {},
+        "marching": {},
     }
     relaxation = _core.RelaxationWake(json.dumps(options), *HUB, 0.02)
     circulation = np.tile(20.0 * np.sin(np.linspace(0.1, 3.0, n_stations)), (steps, 1))

@@ -91,7 +91,7 @@ def balances(
 
 def _harmonics(trim: Trim) -> int:
     """Harmonics of the blades' motion in the trim's own problem."""
-    modes, _, _ = trim.model.core.trim_layout(trim.problem)
+    modes = trim.model.core.trim_layout(trim.problem).modes
     return (modes[1] - modes[0] - 1) // 2
 
 
@@ -106,7 +106,7 @@ def linear_model(
     core, x = trim.model.core, trim.x
     jacobian = np.asarray(core.trim_jacobian(trim.problem, x)).reshape(x.size, x.size)
     body, controls = np.arange(6), np.arange(4)
-    _, inflow, _ = core.trim_layout(trim.problem)
+    inflow = core.trim_layout(trim.problem).inflow
     rotor = np.setdiff1d(np.arange(7, x.size), (inflow + 1, inflow + 2) if hold_harmonics else ())
     # how the balances answer what the equations of rotor and inflow lack
     passed_on = -np.linalg.solve(jacobian[np.ix_(rotor, rotor)].T, jacobian[np.ix_(body, rotor)].T).T

@@ -30,6 +30,9 @@ _RANGES = {
     "bank": ("rad", -math.radians(85.0), math.radians(85.0), "deg"),
 }
 _MASS = (10.0, 1e5)
+_LOAD_FACTOR = (1.0, 5.0)
+TURNS = {"right": 1.0, "left": -1.0}
+"""Directions of a turn, each with the sign of its rate."""
 
 
 def described(values: dict[str, Any]) -> str:
@@ -43,6 +46,8 @@ def described(values: dict[str, Any]) -> str:
             value = f"{value:.2f}"
         elif name in _RANGES:
             value = shown(value, _RANGES[name][3])
+        elif name == "load_factor":
+            value = f"{value:g}"
         elif name == "gross_mass":
             value = shown(value, "kg")
         parts.append(f"{name.replace('_', ' ')} {value}")
@@ -68,6 +73,9 @@ class FlightCondition:
     that sideslip). Not given, `free` at 60 kt and above in straight flight along paths within 30 deg of level.
     bank_share: share of the bank in the lateral convention, 1 free and 0 aligned; not given, it passes from one to the other
     without a jump: between 50 and 60 kt, with paths of 30 to 60 deg, and with turns up to 0.05 g.
+    load_factor: resultant of all loads but gravity over the weight, from 1 on, a plain number; trim finds the rate of the turn,
+    `turn` = `right` or `left`, in which it is n = sqrt(1 + (turn_rate speed cos(flight_path)/g)^2). In a level turn without
+    sideslip it is lift over weight, and 1/cos(bank) but for side forces.
     """
 
     speed: float | None
@@ -79,6 +87,8 @@ class FlightCondition:
     bank: float | None
     heading: str | None
     bank_share: float | None
+    load_factor: float | None
+    turn: str | None
 
     def __init__(
         self,
@@ -90,6 +100,8 @@ class FlightCondition:
         turn_rate: Any = None,
         bank: Any = None,
         heading: str | None = None,
+        load_factor: float | None = None,
+        turn: str | None = None,
     ) -> None:
         """Read and check what is given: text with units, or pint quantities."""
         given = {
@@ -108,6 +120,8 @@ class FlightCondition:
             allowed = f"must lie between {shown(_MASS[0], 'kg')} and {shown(_MASS[1], 'kg')} (times 9.80665 m/s2)"
             raise InputError.of("weight", weight, allowed)
         object.__setattr__(self, "gross_mass", mass)
+        object.__setattr__(self, "load_factor", _load_factor(load_factor, turn_rate))
+        object.__setattr__(self, "turn", _turn(turn, load_factor))
         object.__setattr__(self, "heading", _heading(heading, self.sideslip, self.bank))
         named = {"free": 1.0, "aligned": 0.0}
         object.__setattr__(self, "bank_share", named.get(self.heading))
@@ -133,6 +147,8 @@ class FlightCondition:
         for name in ("speed", "flight_path", "altitude", "gross_mass"):
             if values[name] is None:
                 values[name] = aircraft.default(name, named)
+        if self.load_factor is not None:
+            values["turn_rate"] = self._rate_of_turn(values["speed"] * math.cos(values["flight_path"]))
         if values["heading"] is None:
             share = _bank_share(values["speed"], values["flight_path"], values["turn_rate"])
             values["heading"], values["bank_share"] = "free" if share == 1.0 else "aligned", share
@@ -149,6 +165,19 @@ class FlightCondition:
         else:
             values["sideslip"] = 0.0 if values["sideslip"] is None else values["sideslip"]
         return self._with(values)
+
+    @property
+    def turn_side(self) -> float:
+        """1 of a turn to the right, -1 of one to the left."""
+        return TURNS[self.turn or "right"]
+
+    def _rate_of_turn(self, horizontal_speed: float) -> float:
+        """Rate of turn [rad/s] that gives the load factor."""
+        across = math.sqrt(self.load_factor**2 - 1.0)
+        if across > 0.0 and horizontal_speed < SLOWEST_FREE:
+            allowed = f"1 at a horizontal speed below {shown(SLOWEST_FREE, 'm/s')}: no turn gives more"
+            raise InputError.of("load_factor", self.load_factor, allowed)
+        return self.turn_side * STANDARD_GRAVITY * across / max(horizontal_speed, SLOWEST_FREE)
 
     def changed(self, **values: float) -> FlightCondition:
         """This condition with some numbers changed, SI and radians, unchecked: a step of a continuation."""
@@ -186,6 +215,29 @@ def _in_range(name: str, value: Any) -> float:
     if not low - slack <= number <= high + slack:
         raise InputError.of(name, value, f"must lie between {shown(low, unit)} and {shown(high, unit)}")
     return number
+
+
+def _load_factor(value: Any, turn_rate: Any) -> float | None:
+    """Load factor as a number in its range, None where none is given."""
+    if value is None:
+        return None
+    if turn_rate is not None:
+        raise InputError.of("turn_rate", turn_rate, "trim finds it where a load factor is given")
+    low, high = _LOAD_FACTOR
+    if isinstance(value, bool) or not isinstance(value, int | float) or not low <= value <= high:
+        raise InputError.of("load_factor", value, f"must be a number between {low:g} and {high:g}")
+    return float(value)
+
+
+def _turn(turn: Any, load_factor: Any) -> str | None:
+    """Direction of a turn that is given by its load factor."""
+    if turn is None:
+        return None
+    if turn not in TURNS:
+        raise InputError.of("turn", turn, f"allowed: {', '.join(TURNS)}")
+    if load_factor is None:
+        raise InputError.of("turn", turn, "belongs to a load factor, and none is given")
+    return turn
 
 
 def _bank_share(speed: float, flight_path: float, turn_rate: float) -> float:

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable
 from typing import Any, ClassVar, Protocol
 
@@ -169,27 +168,17 @@ class MarchingExchange(Exchange):
 
 def marching(model: CompiledRotor, trimmed: Trimmed) -> _core.Exchange:
     """A marching wake with the options of `model` from the periodic one of a trim."""
-    inflow = model.inflow
-    hold = steps_of(model, inflow.update_interval)
-    options = {"recorrect": inflow.recorrect, "extrapolate": inflow.extrapolate, "hold": hold}
-    return _core.Exchange.marching(model.core, trimmed.core, model.wake_options, json.dumps(options))
+    return _core.Exchange.marching(model.core, trimmed.core, model.wake_options)
 
 
 def relaxation(model: CompiledRotor, trimmed: Trimmed, motion: tuple[np.ndarray, np.ndarray]) -> _core.Exchange:
     """The relaxation wake of a trim in flight; periodic motion (n, n_modes) of its blades."""
-    inflow = model.inflow
-    renewal = {"every": steps_of(model, inflow.update_interval), "most": inflow.max_loops_response}
-    return _core.Exchange.relaxation(model.core, trimmed.core, motion, json.dumps(renewal))
+    return _core.Exchange.relaxation(model.core, trimmed.core, motion, model.wake_options)
 
 
 def dynamic(model: CompiledRotor) -> _core.Exchange:
     """Dynamic inflow, which is in the state."""
     return _core.Exchange.dynamic(model.core, model.steps_per_revolution)
-
-
-def steps_of(model: CompiledRotor, interval: float | None) -> int | None:
-    """Coupling steps in an interval of azimuth [rad]."""
-    return None if interval is None else round(interval / (2 * np.pi) * model.steps_per_revolution)
 
 
 def exchange_from(model: CompiledRotor, packed: bytes) -> Exchange:

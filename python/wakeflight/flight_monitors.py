@@ -9,11 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .errors import NumericalFailure
-from .inflow import DynamicInflow, RelaxationWake
-from .limits import stall_angles
+from .limits import stall_along_span, table_end
 from .model import Model
 from .monitors import Monitor, Places, airframe, rotor
-from .trim_monitors import table_end
 
 if TYPE_CHECKING:
     from .recorder import Recorder
@@ -61,16 +59,25 @@ def monitors(run: Recorder) -> tuple[Monitor, ...]:
     names = ("lateral", "longitudinal", "collective", "pedal")
     inches = dict(zip(names, stick.T / 0.0254, strict=True))
     engine = rotor.over_passage(run.scalars["power"][:n], passage)
+    shaft = rotor.over_passage(-run.loads["hub_moment"][:n, 2], passage)
     found = [
         rotor.induced_velocity(fields["inflow"], usual, bound, places),
         rotor.mach_number(fields["mach"], fastest, table_end(tables), places),
         rotor.angle_of_attack(fields["alpha"], places),
         rotor.stall(
-            stall_angles(tables), fields["alpha"], fields["mach"], model.area_weights, tip_mach, places, passage
+            stall_along_span(tables, model.stations),
+            fields["alpha"],
+            fields["mach"],
+            model.area_weights,
+            tip_mach,
+            places,
+            passage,
         ),
-        rotor.axial_flow(mu, mu_z, run.scalars["ct"][:n], isinstance(model.inflow, DynamicInflow), time),
+        rotor.axial_flow(mu, mu_z, run.scalars["ct"][:n], model.inflow.is_dynamic, time),
         *airframe.sticks(inches, aircraft.stick_travel_in, time),
         airframe.power(engine, aircraft.limits.power, time),
+        *airframe.torque(shaft, aircraft.limits.torque, time),
+        *airframe.rotor_speed(model.omega, aircraft.limits.rotor_speed),
         airframe.ground(y[:, 12], run.start.condition.altitude, time),
     ]
     return (*found, *_of_wake(run, time))
@@ -78,7 +85,7 @@ def monitors(run: Recorder) -> tuple[Monitor, ...]:
 
 def _of_wake(run: Recorder, time: np.ndarray) -> list[Monitor]:
     """What a free wake adds: its vortices, its nodes, its inner solves."""
-    if isinstance(run.model.inflow, DynamicInflow):
+    if run.model.inflow.is_dynamic:
         return []
     n, counted = run.n_recorded, run.counters()
     found: list[Monitor] = []
@@ -86,6 +93,6 @@ def _of_wake(run: Recorder, time: np.ndarray) -> list[Monitor]:
     if distance is not None:
         found.append(rotor.vortex_distance(distance))
         found.append(rotor.node_motion(run.scalars["max_displacement"][:n], run.model.rotor["radius"], time))
-    if isinstance(run.model.inflow, RelaxationWake):
+    if run.model.inflow.is_relaxed:
         found.append(rotor.unrenewed(counted["unconverged_revolutions"], counted["relaxation_updates"]))
     return found

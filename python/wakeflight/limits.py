@@ -30,6 +30,44 @@ class StallAngles:
         return np.interp(mach, self.mach, self.negative), np.interp(mach, self.mach, self.positive)
 
 
+@dataclass(frozen=True)
+class StallAlongSpan:
+    """Stall angles of every station: those of its neighbouring sections, weighted like their tables.
+
+    sections: inboard to outboard; inner (n_stations,): section inboard of each station; share (n_stations,): of the next one.
+    """
+
+    sections: tuple[StallAngles, ...]
+    inner: np.ndarray
+    share: np.ndarray
+
+    def at(self, mach: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Negative and positive stall angle [rad] at Mach numbers (..., n_stations)."""
+        ends = np.array([section.at(mach) for section in self.sections])
+        outer = np.minimum(self.inner + 1, len(self.sections) - 1)
+        stations = np.arange(self.inner.size)
+        # (n_stations, negative and positive, ...) behind the two indices
+        inner, next_one = (np.moveaxis(ends[index, ..., stations], 0, -1) for index in (self.inner, outer))
+        low, high = inner + self.share * (next_one - inner)
+        return low, high
+
+
+def stall_along_span(airfoil: Mapping[str, Any], stations: np.ndarray) -> StallAngles | StallAlongSpan:
+    """Stall angles of the sections of a blade at `stations` [m]; airfoil: {stations, stepwise, tables} as the core has it."""
+    sections = tuple(stall_angles(table) for table in airfoil["tables"])
+    if len(sections) == 1:
+        return sections[0]
+    named = np.asarray(airfoil["stations"])
+    inner = np.clip(np.searchsorted(named, stations, side="right") - 1, 0, named.size - 1)
+    share = np.clip(np.interp(stations, named, np.arange(named.size)) - inner, 0.0, 1.0)
+    return StallAlongSpan(sections, inner, np.zeros_like(share) if airfoil["stepwise"] else share)
+
+
+def table_end(airfoil: Mapping[str, Any]) -> float:
+    """Mach number to which all section tables of a blade reach."""
+    return min(table[name]["y"][-1] for table in airfoil["tables"] for name in ("cl", "cd", "cm"))
+
+
 def stall_angles(airfoil: Mapping[str, Any]) -> StallAngles:
     """Stall angles by Mach number of the lift table of `airfoil`: {"cl": {"x": alpha [rad], "y": Mach, "values"}, ...}.
 
@@ -64,7 +102,7 @@ def _stall(alpha: np.ndarray, cl: np.ndarray, sign: float) -> float:
     return float(zero + sign * from_zero[step])
 
 
-def stalled(angles: StallAngles, alpha: np.ndarray, mach: np.ndarray, slow: float = 0.0) -> np.ndarray:
+def stalled(angles: StallAngles | StallAlongSpan, alpha: np.ndarray, mach: np.ndarray, slow: float = 0.0) -> np.ndarray:
     """Whether sections at `alpha` [rad] and `mach` are beyond stall; not counted: reversed flow, Mach numbers below `slow`."""
     low, high = angles.at(np.asarray(mach))
     turned = np.remainder(np.asarray(alpha) + np.pi, 2 * np.pi) - np.pi

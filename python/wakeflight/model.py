@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, ClassVar
 
@@ -13,10 +13,27 @@ import numpy as np
 from . import _core
 from .aircraft import Aircraft
 from .condition import FlightCondition
-from .inflow import DynamicInflow, InflowModel, RelaxationWake, TimeMarchingWake
+from .inflow import InflowModel, RelaxationWake
 from .monitors import Bounds, bounds
 from .results import disk
+from .trim_target import Target
 from .units import STANDARD_GRAVITY
+
+ROLL, PITCH, YAW = 4, 5, 6
+"""Places of the attitude among the unknowns of a trim of an aircraft."""
+BALANCES = tuple((name, ()) for name in ("force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z"))
+
+Equations = tuple[tuple[str, tuple[float, ...]], ...]
+"""Name and numbers of every equation asked for, SI."""
+
+
+@dataclass(frozen=True)
+class Question:
+    """What is asked of a trim: path (speed, flight path, turn rate), its free parts, the equations."""
+
+    equations: Equations
+    path: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    free: tuple[str, ...] = ()
 
 
 class CompiledRotor:
@@ -75,6 +92,19 @@ class CompiledRotor:
         raise NotImplementedError
 
     @property
+    def question(self) -> Question:
+        """What is asked of its trim."""
+        raise NotImplementedError
+
+    def normalised(self, x: np.ndarray) -> np.ndarray:
+        """Unknowns of a trim with angles that mean the same brought to one of them."""
+        return x
+
+    def is_answer(self, problem: _core.TrimProblem, x: np.ndarray) -> bool:
+        """Whether unknowns that meet the equations are what was asked for."""
+        return True
+
+    @property
     def has_thin_sections(self) -> bool:
         """Whether the blades lift as thin sections without stall instead of by their tables."""
         return False
@@ -82,7 +112,7 @@ class CompiledRotor:
     @cached_property
     def bounds(self) -> Bounds:
         """What the motion of this rotor can give at most; without a wake its vortices have the cores of a default one."""
-        wake = self.inflow if isinstance(self.inflow, RelaxationWake | TimeMarchingWake) else RelaxationWake()
+        wake = self.inflow if self.inflow.is_free_wake else RelaxationWake()
         return bounds(self.rotor, self.rotor_tables, self.speed_of_sound, wake, self.has_thin_sections)
 
     def disk_mean(self, inflow: np.ndarray) -> float:
@@ -111,10 +141,14 @@ class Model(CompiledRotor):
     data: dict[str, Any]
     density: float
     speed_of_sound: float
+    target: Target | None = None
+    """What a trim meets with a part of the condition's path left free."""
     n_controls: ClassVar[int] = 4
 
     @classmethod
-    def build(cls, aircraft: Aircraft, condition: FlightCondition, inflow: InflowModel) -> Model:
+    def build(
+        cls, aircraft: Aircraft, condition: FlightCondition, inflow: InflowModel, target: Target | None = None
+    ) -> Model:
         """Compile; the tip loss is off and the inflow states are out of y with a free wake.
 
         Options of the wake that depend on the regime take the numbers of the condition's.
@@ -129,18 +163,56 @@ class Model(CompiledRotor):
             density,
             speed_of_sound,
             STANDARD_GRAVITY,
-            not isinstance(inflow, DynamicInflow),
+            not inflow.is_dynamic,
             d.n_elements,
             d.n_modes,
             d.n_gauss,
             inflow.n_stations,
             d.reference_pitch,
         )
-        return cls(aircraft, condition, inflow, core, data, density, speed_of_sound)
+        return cls(aircraft, condition, inflow, core, data, density, speed_of_sound, target)
+
+    @property
+    def question(self) -> Question:
+        """The condition: balances, lateral convention, and what is met with parts of the path left free."""
+        c = self.condition
+        equations: list = [*BALANCES, ("convention", (c.bank or 0.0, c.sideslip or 0.0, c.bank_share))]
+        free = []
+        if self.target is not None:
+            equations.append((self.target.name, (self.target.value,)))
+            free.append(self.target.free)
+        if c.load_factor is not None:
+            equations.append(("load_factor", (c.load_factor, c.turn_side)))
+            free.append("turn_rate")
+        return Question(tuple(equations), (c.speed, c.flight_path, c.turn_rate), tuple(free))
+
+    def flown(self, problem: _core.TrimProblem, x: np.ndarray) -> Model:
+        """This model with what was found of the path in its condition."""
+        if not self.question.free:
+            return self
+        speed, flight_path, turn_rate = self.core.trim_path(problem, x)
+        condition = self.condition.changed(speed=speed, flight_path=flight_path, turn_rate=turn_rate)
+        return replace(self, condition=condition)
+
+    def normalised(self, x: np.ndarray) -> np.ndarray:
+        """`x` with roll and heading in (-pi, pi]."""
+        x = x.copy()
+        for i in (ROLL, YAW):
+            # rounding at -pi does not turn a heading about
+            turned = np.remainder(x[i] + np.pi - 1e-9, 2 * np.pi) - np.pi + 1e-9
+            x[i] = min(turned, np.pi)
+        return x
+
+    def is_answer(self, problem: _core.TrimProblem, x: np.ndarray) -> bool:
+        """Whether it is the flight asked for: not looping, not backwards along its path or where the heading is left free."""
+        free = self.condition.bank_share > 0.5
+        speed, flight_path, _ = self.core.trim_path(problem, x)
+        along = speed >= 0.0 and abs(flight_path) <= 0.5 * np.pi
+        return along and abs(x[PITCH]) < 0.5 * np.pi and not (free and abs(x[YAW]) > 0.5 * np.pi)
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Compiled anew where it is needed."""
-        return Model.build, (self.aircraft, self.condition, self.inflow)
+        return Model.build, (self.aircraft, self.condition, self.inflow, self.target)
 
     @property
     def rotor_tables(self) -> dict[str, Any]:

@@ -101,7 +101,7 @@ class BladeModes:
         for i, (f, s, label) in enumerate(zip(self.frequencies, self.shares, self.labels, strict=True), start=1):
             flap, lag, torsion = np.clip(s, 0.0, 1.0)
             lines.append(f"{i:4d}  {f:17.4f}  {flap:5.1%}  {lag:5.1%}  {torsion:7.1%}  {label}")
-        if not self.has_torsion:
+        if not self.has_torsion and np.any(self.shapes["twist"]):
             lines.append("warning: no mode kept is mostly torsion: keep more modes")
         return "\n".join(lines)
 
@@ -115,13 +115,15 @@ def blade_modes(
 ) -> BladeModes:
     """Modes of the blade of an aircraft or of a rotor, hinged or clamped, at a rotor speed and root pitch.
 
+    Those of a rigid blade are the turns about its hinges.
+
     rotor_speed [rad/s]: the nominal one by default, zero for a rotor at rest. reference_pitch [rad]: that of the aircraft's mid
     collective, or of the rotor file, by default. n_elements: the aircraft's, and enough for the modes asked.
     """
     rotor = load_rotor(aircraft)
-    if not rotor.flexible:
-        raise InputError.of("flexible", "false", "must be true: a rigid blade has no modes", file=rotor.path)
     d = rotor.discretisation
+    if d.n_modes == 0:
+        raise InputError.of("blade", "rigid and clamped", "must bend or have hinges: it has no modes", file=rotor.path)
     n_modes = d.n_modes if n_modes is None else n_modes
     if not isinstance(n_modes, int | np.integer) or isinstance(n_modes, bool) or n_modes < 1:
         raise InputError.of("n_modes", n_modes, "must be a whole number above 0")
@@ -185,9 +187,7 @@ def _compared(ours: float, value: float, label: str) -> str:
 def mode_labels(rotor: Aircraft | Rotor) -> list[str]:
     """What the modes that a result's `modal` coordinates belong to mostly are, by `BladeModes.labels`."""
     loaded = load_rotor(rotor)
-    if loaded.flexible:
-        return blade_modes(loaded).labels
-    return ["lag 1", "flap 1"][2 - loaded.discretisation.n_modes :] if loaded.discretisation.n_modes else []
+    return blade_modes(loaded).labels if loaded.discretisation.n_modes else []
 
 
 def fan(aircraft: Aircraft, n_modes: int = 7) -> tuple[np.ndarray, np.ndarray, list[str]]:

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .flight_monitors import check_sample, monitors
-from .inflow import DynamicInflow
 from .maneuvers import Maneuver
 from .model import Model
 from .modes import mode_labels
@@ -82,7 +81,7 @@ class Recorder:
         self.blade_angles["flap"][step], self.blade_angles["lead"][step] = angles
         self.scalars["power"][step] = sum(out["power"])
         self.scalars["stabilator"][step] = at.stabilator
-        dynamic = isinstance(self.model.inflow, DynamicInflow)
+        dynamic = self.model.inflow.is_dynamic
         first = self.model.layout["inflow"][0]
         self.scalars["inflow_mean"][step] = y[first] if dynamic else at.mean_inflow
         monitors = self.exchange.monitors
@@ -140,7 +139,7 @@ class Recorder:
         arrays["energy_balance"] = self.energy_balance()
         arrays |= variables(self.monitors)
         arrays |= {name: values[:n] for name, values in self.blade_angles.items()}
-        if not isinstance(model.inflow, DynamicInflow):
+        if not model.inflow.is_dynamic:
             arrays |= self._wake_arrays(self.phase)
         counted = self.counters()
         return assemble(
@@ -256,7 +255,7 @@ class Recorder:
 
 def keeps_sheets(model: Model, n_steps: int) -> bool:
     """Whether the run is short enough to keep the whole lattice of a full-span wake."""
-    if getattr(model.inflow, "trailers", "tip") == "tip":
+    if not model.inflow.is_full_span:
         return False
     n = model.steps_per_revolution
     snapshots = 1 + SNAPSHOTS_PER_REVOLUTION * n_steps // n

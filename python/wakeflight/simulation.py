@@ -20,7 +20,7 @@ import numpy as np
 from . import _core
 from .errors import InputError, NumericalFailure
 from .exchange import Exchange, MarchingExchange, exchange_from, exchange_of
-from .inflow import DynamicInflow, InflowModel, inflow_model, like, trim_model
+from .inflow import InflowModel, inflow_model, like
 from .integrators import INTEGRATORS
 from .maneuvers import STICKS
 from .model import Model, flight_regime
@@ -386,29 +386,22 @@ def flight_model(start: Trim, inflow: str | InflowModel | None) -> Model:
 
     What depends on the regime is that of the trimmed condition, and stays so where the manoeuvre leads into another.
     """
-    trimmed = start.inflow
-    dynamic = trimmed.name == DynamicInflow.name
     if inflow is None:
-        inflow = DynamicInflow.name if dynamic else TimeMarchingWake.name
+        inflow = "dynamic" if start.inflow.is_dynamic else "time-marching"
+    trimmed = start.inflow
     chosen = inflow_model(inflow)
-    if (chosen.name == DynamicInflow.name) != dynamic:
-        needed = "relaxation" if dynamic else "dynamic"
+    if chosen.is_dynamic != trimmed.is_dynamic:
+        needed = "dynamic" if chosen.is_dynamic else "relaxation"
         raise InputError.of("inflow", chosen.name, f"needs a trim with inflow='{needed}', this one used {trimmed.name}")
-    if dynamic:
+    if chosen.is_dynamic:
         return start.model
     if isinstance(inflow, str):
         chosen = trimmed if trimmed.name == chosen.name else like(type(chosen), trimmed)
     regime = flight_regime(start.aircraft, start.condition)
     chosen = chosen.resolved(regime)
-    before = trim_model(trimmed).resolved(regime).core_options(start.aircraft)
-    now = chosen.core_options(start.aircraft)
-    for name in sorted(set(now) - {"scheme", "predictor", "evaluation", "time_filter", "relaxation"}):
-        if before[name] != now[name]:
-            raise InputError.of(
-                name,
-                now[name],
-                f"must be that of the trim, {before[name]}: trim again with this inflow model",
-            )
+    chosen.check_on(start.aircraft)
+    for name, before, now in chosen.unlike(trimmed.resolved(regime), start.aircraft):
+        raise InputError.of(name, now, f"must be that of the trim, {before}: trim again with this inflow model")
     return Model.build(start.aircraft, start.condition, chosen)
 
 

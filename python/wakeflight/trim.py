@@ -14,14 +14,16 @@ from . import _core
 from .aircraft import Aircraft
 from .condition import FlightCondition, condition_for
 from .errors import NumericalFailure
-from .inflow import DynamicInflow, InflowModel, TimeMarchingWake, inflow_model, trim_model
+from .inflow import DynamicInflow, InflowModel, inflow_model, trim_model
 from .model import Model
 from .monitors import Monitor, failures, warnings
 from .progress import Progress, Silent
-from .trim_equations import INCH, dynamic_map, residual_norms
+from .trim_equations import INCH, dynamic_map, residual_norms, without_inflow
 from .trim_limits import windmill
 from .trim_solve import solve_condition
+from .trim_target import target
 from .trim_wake import CONTROL_TOLERANCE, on_marching, on_relaxation
+from .units import STANDARD_GRAVITY
 from .views import html_table
 from .wake_trim import WakeInTrim
 
@@ -115,6 +117,31 @@ class Trim:
         return float(self.x[6])
 
     @property
+    def speed(self) -> float:
+        """True airspeed [m/s], as given or found."""
+        return self.condition.speed
+
+    @property
+    def flight_path(self) -> float:
+        """Flight-path angle, climb positive [rad], as given or found."""
+        return self.condition.flight_path
+
+    @property
+    def rate_of_descent(self) -> float:
+        """Rate of descent [m/s], negative in climb."""
+        return float(-self.speed * np.sin(self.flight_path))
+
+    @property
+    def turn_rate(self) -> float:
+        """Rate of turn, to the right positive [rad/s], as given or found."""
+        return self.condition.turn_rate
+
+    @property
+    def load_factor(self) -> float:
+        """Resultant of all loads but gravity over the weight: sqrt(1 + (turn rate x horizontal speed/g)^2)."""
+        return float(np.hypot(1.0, self.turn_rate * self.speed * np.cos(self.flight_path) / STANDARD_GRAVITY))
+
+    @property
     def pitch_controls(self) -> dict[str, float]:
         """Blade pitch theta_1c, theta_1s, theta_0 and tail-rotor pitch theta_tr [rad]."""
         return dict(zip(("theta_1c", "theta_1s", "theta_0", "theta_tr"), self._controls(), strict=True))
@@ -203,9 +230,17 @@ def trim(
     progress: Progress | Silent | None = None,
     n_harmonics: int = 8,
     control_tolerance: float = CONTROL_TOLERANCE,
+    *,
+    power: Any = None,
+    collective: Any = None,
+    free: str | None = None,
 ) -> Trim:
     """Trim `aircraft` in `condition` (default: the aircraft's own) with an inflow model.
 
+    power: of the engines ("0 hp" is autorotation): main rotor, tail rotor and accessories, no losses between. collective: blade
+    pitch theta_0 at the root. With one of them a part of the condition's path is found, and its value there is where the search
+    begins: free = `flight_path` (speed as given) or `speed` (path as given). What was found stands in `.flight_path`,
+    `.rate_of_descent`, `.speed`, and in the trim's condition.
     n_harmonics: harmonics of the blades' periodic motion. control_tolerance: change of a pitch control [rad] between trims on a
     free wake at which they rest.
 
@@ -217,32 +252,35 @@ def trim(
     condition = condition_for(aircraft, condition)
     chosen = inflow_model(inflow)
     chosen.step(aircraft)
+    asked = target(condition, power, collective, free)
     progress.phase("trim", None)
 
     # dynamic inflow first: the result itself, or the start of the free wake
-    dynamic = chosen if isinstance(chosen, DynamicInflow) else DynamicInflow(n_stations=chosen.n_stations)
-    simple = Model.build(aircraft, condition, dynamic)
+    dynamic = chosen if chosen.is_dynamic else DynamicInflow(n_stations=chosen.n_stations)
+    simple = Model.build(aircraft, condition, dynamic, asked)
     problem, x = solve_condition(simple, n_harmonics)
+    simple = simple.flown(problem, x)
+    condition = simple.condition
     progress.advance(1, "dynamic inflow")
-    if isinstance(chosen, DynamicInflow):
+    if chosen.is_dynamic:
         none = windmill(simple, problem, x)
         if none is not None:
             raise NumericalFailure(none)
         inflow_map, circulation = dynamic_map(simple, problem, x)
         return physical(Trim(simple, problem, x, inflow_map, circulation, None, time.perf_counter() - started))
 
-    model = Model.build(aircraft, condition, trim_model(chosen))
+    model = Model.build(aircraft, condition, trim_model(chosen), asked)
     inflow_map, _ = dynamic_map(simple, problem, x, model.steps_per_revolution)
-    x = np.delete(x, slice(7, 10))
+    x = without_inflow(simple, problem, x)
     wake = WakeInTrim(model, inflow_map, steadied=True)
-    marching = isinstance(chosen, TimeMarchingWake)
+    marching = chosen.is_marching
     found = on_relaxation(model, wake, x, inflow_map, n_harmonics, progress, control_tolerance, start_only=marching)
     if marching:
-        model = Model.build(aircraft, condition, chosen)
+        model = Model.build(aircraft, condition, chosen, asked)
         found = on_marching(model, found, wake, n_harmonics, progress, control_tolerance)
     return physical(
         Trim(
-            model,
+            model.flown(found.problem, found.x),
             found.problem,
             found.x,
             found.inflow_map,
@@ -266,7 +304,7 @@ def physical(found: Trim) -> Trim:
 def trim_inputs(start: Trim, t: float) -> _core.Inputs:
     """Inputs that hold the trim at time `t`: the map at each blade's azimuth, or the inflow states."""
     model = start.model
-    if isinstance(model.inflow, DynamicInflow):
+    if model.inflow.is_dynamic:
         return _core.Inputs(start.x[:4], np.zeros(4), 0.0, None, 0.0, start.stabilator_incidence)
     n = start.inflow_map.shape[0]
     first = round(model.omega * t / (2 * np.pi) * n)

@@ -8,8 +8,7 @@ from typing import Any
 import numpy as np
 
 from . import _core
-from .inflow import DynamicInflow
-from .limits import in_vortex_ring, momentum_inflows, stall_angles, stalled, sticks_beyond
+from .limits import in_vortex_ring, momentum_inflows, stall_along_span, stalled, sticks_beyond
 from .model import Model
 from .monitors.rotor import SLOW, STALLED_SHARE
 from .trim_equations import INCH
@@ -40,9 +39,7 @@ def limiting(
     hub, _ = model.core.hub(model.core.trim_state(problem, x, 0.0)[0])
     hover = np.sqrt(0.5 * abs(rotor["ct"])) * model.tip_speed
     if in_vortex_ring(-hub[2], np.hypot(hub[0], hub[1]), hover):
-        answer = (
-            "momentum inflow has no answer" if isinstance(model.inflow, DynamicInflow) else "the wake stays in the disk"
-        )
+        answer = "momentum inflow has no answer" if model.inflow.is_dynamic else "the wake stays in the disk"
         texts.append(
             f"axial flow in the vortex-ring range (descent at {-hub[2] / hover:.2f} of the induced velocity of hover): {answer}"
         )
@@ -67,11 +64,11 @@ def windmill(model: Model, problem: _core.TrimProblem, x: np.ndarray) -> str | N
 def over_the_disk(
     model: Model, problem: _core.TrimProblem, x: np.ndarray, inflow_map: np.ndarray | None
 ) -> dict[str, Any]:
-    """Share of the disk beyond stall, reversed flow and slow sections not counted, and C_T; means over a revolution."""
+    """Share of the disk beyond stall, reversed flow and slow sections not counted, C_T, power [W]; means over a revolution."""
     core, n_blades = model.core, model.n_blades
     n = model.steps_per_revolution if inflow_map is None else inflow_map.shape[0]
-    beyond, ct = [], []
-    angles = stall_angles(model.data["rotor"]["airfoil"])
+    beyond, ct, power = [], [], []
+    angles = stall_along_span(model.data["rotor"]["airfoil"], model.stations)
     slow = SLOW * model.tip_speed / model.speed_of_sound
     incidence = core.trim_stabilator(problem, x)
     for k in range(n // n_blades):
@@ -82,7 +79,9 @@ def over_the_disk(
         out = core.outputs(t, *core.trim_state(problem, x, t), inputs)
         beyond.append(stalled(angles, out["alpha"], out["mach"], slow))
         ct.append(out["ct"])
-    return {"stalled": float(np.mean(np.array(beyond) @ model.area_weights)), "ct": float(np.mean(ct))}
+        power.append(sum(out["power"]))
+    stalled_share = float(np.mean(np.array(beyond) @ model.area_weights))
+    return {"stalled": stalled_share, "ct": float(np.mean(ct)), "power": float(np.mean(power))}
 
 
 def tail_loading(model: Model, problem: _core.TrimProblem, x: np.ndarray) -> float | None:
@@ -99,7 +98,7 @@ def tail_flow(model: Model, problem: _core.TrimProblem, x: np.ndarray) -> tuple[
     tail = model.data["tail_rotor"]
     if tail is None:
         return None
-    _, _, at = model.core.trim_layout(problem)
+    at = model.core.trim_layout(problem).tail_inflow
     y, _ = model.core.trim_state(problem, x, 0.0)
     sin, cos = np.sin(tail["cant"]), np.cos(tail["cant"])
     velocity = (y[:3] + np.cross(y[3:6], tail["position"])) / (tail["omega"] * tail["radius"])

@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .inflow import DynamicInflow
-from .limits import stall_angles
+from .limits import stall_along_span, table_end
 from .model import CompiledRotor
 from .monitors import Monitor, Places, airframe, rotor, vortices
 from .trim_limits import TAIL_LOADING, tail_flow, tail_in_vortex_ring, tail_loading
@@ -37,7 +36,7 @@ def monitors(start: Trim) -> tuple[Monitor, ...]:
     section = model.bounds.section(velocity, pitch)
     fastest = model.bounds.mach(np.linalg.norm(y[:3]), np.linalg.norm(y[3:6]), section)
     tip_mach = model.tip_speed / model.speed_of_sound
-    stalled = rotor.stall(stall_angles(tables), alpha, mach, model.area_weights, tip_mach, places)
+    stalled = rotor.stall(stall_along_span(tables, model.stations), alpha, mach, model.area_weights, tip_mach, places)
     at_75 = theta["theta_0"] + float(np.interp(0.75, model.bounds.station, model.bounds.twist))
     why = (
         f"mu = {mu:.3f}, C_T/sigma = {mean['ct'] / start.aircraft.solidity:.3f}, "
@@ -51,10 +50,12 @@ def monitors(start: Trim) -> tuple[Monitor, ...]:
         rotor.angle_of_attack(alpha, places),
         stalled,
         rotor.pitch({"collective": at_75, "cyclic": cyclic}, float(np.arctan2(-mu_z, 0.75)), why),
-        rotor.axial_flow(mu, mu_z, mean["ct"], isinstance(start.inflow, DynamicInflow)),
+        rotor.axial_flow(mu, mu_z, mean["ct"], start.inflow.is_dynamic),
         *airframe.sticks(start.stick, start.aircraft.stick_travel_in),
         airframe.tail_rotor(tail_loading(model, start.problem, start.x), TAIL_LOADING, ring),
         airframe.power(mean["power"], start.aircraft.limits.power),
+        *airframe.torque(-mean["hub_moment"][2], start.aircraft.limits.torque),
+        *airframe.rotor_speed(model.omega, start.aircraft.limits.rotor_speed),
         airframe.attitude(start.roll, start.pitch, condition.bank is not None or condition.turn_rate != 0.0),
         airframe.sideslip(y[:2], condition.sideslip is not None),
     ]
@@ -66,11 +67,6 @@ def monitors(start: Trim) -> tuple[Monitor, ...]:
 def disk_places(model: CompiledRotor, n_azimuths: int) -> Places:
     """Places of a map of `n_azimuths` on the stations of `model`."""
     return Places(model.stations / model.rotor["radius"], 2 * np.pi * np.arange(n_azimuths) / n_azimuths)
-
-
-def table_end(airfoil: dict) -> float:
-    """Mach number to which all section tables reach."""
-    return min(airfoil[name]["y"][-1] for name in ("cl", "cd", "cm"))
 
 
 def closest_vortex(model: CompiledRotor, wake: WakeInTrim) -> float:

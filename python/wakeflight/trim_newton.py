@@ -13,8 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from . import _core
-from .model import Model
-from .trim_equations import PITCH, YAW, normalised, scales, tolerances
+from .model import CompiledRotor
+from .trim_equations import scales, tolerances
 
 LARGEST_STEP = 30.0
 """Longest correction of one unknown in its scale: 3 in of stick, 30 deg, 0.03 of inflow, 3 deg of a blade harmonic."""
@@ -46,11 +46,11 @@ class Attempt:
 
 
 def newton(
-    model: Model, problem: _core.TrimProblem, x: np.ndarray, work: Work, iterations: int = ITERATIONS
+    model: CompiledRotor, problem: _core.TrimProblem, x: np.ndarray, work: Work, iterations: int = ITERATIONS
 ) -> Attempt:
     """Solve the trim equations from `x`; a few more steps than needed bring the residual to rounding."""
     core = model.core
-    allowed, scale = tolerances(model, problem, x.size), scales(model, problem, x.size)
+    allowed, scale = tolerances(model, problem), scales(model, problem)
     f = core.trim_residual(problem, x)
     best = (np.inf, x)
     steps = 0
@@ -84,8 +84,8 @@ def newton(
         if level < best[0]:
             best = (level, x)
     level, x = best
-    x = normalised(x)
-    return Attempt(x, level <= 1.0 and upright(model, x), steps)
+    x = model.normalised(x)
+    return Attempt(x, level <= 1.0 and model.is_answer(problem, x), steps)
 
 
 def inverted(jacobian: np.ndarray) -> np.ndarray | None:
@@ -95,9 +95,3 @@ def inverted(jacobian: np.ndarray) -> np.ndarray | None:
     except np.linalg.LinAlgError:
         return None
     return inverse if np.all(np.isfinite(inverse)) else None
-
-
-def upright(model: Model, x: np.ndarray) -> bool:
-    """Whether the solution is the flight asked for: not looping, and not backwards where the heading is left free."""
-    free = model.condition.bank_share > 0.5
-    return abs(x[PITCH]) < 0.5 * np.pi and not (free and abs(x[YAW]) > 0.5 * np.pi)

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .inflow import DynamicInflow
 from .model import flight_regime
 from .modes import mode_labels
 from .monitors import lines, variables
@@ -45,7 +44,7 @@ def mean_outputs(start: Trim) -> dict[str, Any]:
     model = start.model
     y = start.state()
     hub_velocity, _ = model.core.hub(y)
-    modes, _, _ = model.core.trim_layout(start.problem)
+    modes = model.core.trim_layout(start.problem).modes
     return {
         **{name: value for name, value in mean.items() if name not in ("ct", "power", "beta_1c", "beta_1s")},
         "ct": float(mean["ct"]),
@@ -78,7 +77,7 @@ def to_dataset(start: Trim) -> xr.Dataset:
     for rows, out in instants(start):
         for name, values in maps.items():
             values[rows] = out[name]
-    modes, _, _ = model.core.trim_layout(start.problem)
+    modes = model.core.trim_layout(start.problem).modes
     scale = np.asarray(model.rotor["angle_per_coordinate"])
     harmonics = np.array([start.x[modes[i] : modes[i + 1]] * scale[i] for i in range(len(modes) - 1)])
     controls = start.pitch_controls
@@ -124,6 +123,8 @@ def to_dataset(start: Trim) -> xr.Dataset:
         "omega": model.omega,
         "blade_modes": mode_labels(start.aircraft),
         "yaw": start.yaw,
+        "rate_of_descent": start.rate_of_descent,
+        "load_factor": start.load_factor,
         "configuration": {
             "aircraft": start.aircraft.name,
             "condition": start.condition.as_attributes(),
@@ -148,12 +149,14 @@ def table(start: Trim) -> str:
     condition = start.condition
     precone = float(start.aircraft.rotor.blade.precone)
     beyond = f" beyond {deg(precone):.1f} deg precone" if precone else ""
+    turning = f", turn {deg(start.turn_rate):.2f} deg/s, load factor {start.load_factor:.3f}" if start.turn_rate else ""
     rows = [
         (
             "condition",
             f"{condition.speed / 0.514444:.1f} kt, flight path {deg(condition.flight_path):.2f} deg, "
-            f"{condition.altitude / 0.3048:.0f} ft, {condition.gross_mass / 0.45359237:.0f} lb",
+            f"{condition.altitude / 0.3048:.0f} ft, {condition.gross_mass / 0.45359237:.0f} lb{turning}",
         ),
+        *_found(start),
         ("inflow model", start.inflow.name + _wake_length(start)),
         *[
             (f"{name} stick", f"{stick[name]:7.3f} in of {full:.2f}")
@@ -186,7 +189,7 @@ def table(start: Trim) -> str:
             f"blade harmonics {residuals['harmonics']:.1e} rad",
         ),
     ]
-    if not isinstance(start.inflow, DynamicInflow) and start.history:
+    if not start.inflow.is_dynamic and start.history:
         last = start.history[-1]
         rows.append(
             (
@@ -201,9 +204,24 @@ def table(start: Trim) -> str:
     return "\n".join(f"{name:<{width}}  {value.strip()}" for name, value in rows)
 
 
+def _found(start: Trim) -> list[tuple[str, str]]:
+    """What trim found of the path for what it was asked to meet."""
+    asked = start.model.target
+    if asked is None:
+        return []
+    descent = start.rate_of_descent
+    return [
+        (
+            "found",
+            f"{asked.free.replace('_', ' ')} for {asked.name} {asked.shown(asked.value)}: "
+            f"{'descent' if descent >= 0.0 else 'climb'} at {abs(descent):.2f} m/s ({abs(descent) / 0.00508:.0f} ft/min)",
+        )
+    ]
+
+
 def _wake_length(start: Trim) -> str:
     """Regime and length of a free wake, to follow its name."""
-    if isinstance(start.inflow, DynamicInflow):
+    if start.inflow.is_dynamic:
         return ""
     regime = flight_regime(start.aircraft, start.condition)
     return f", {start.inflow.turns:g} turns free, {start.inflow.far_wake_turns} repeated ({REGIMES[regime]})"

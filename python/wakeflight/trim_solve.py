@@ -17,9 +17,9 @@ import numpy as np
 from . import _core
 from .condition import FlightCondition, smooth_step
 from .errors import NumericalFailure
-from .model import Model
-from .trim_equations import INCH, PITCH, ROLL, YAW, normalised, scales, trim_problem, unmet
-from .trim_limits import limiting
+from .model import PITCH, ROLL, YAW, Model
+from .trim_equations import INCH, scales, trim_problem, unmet
+from .trim_limits import limiting, over_the_disk
 from .trim_newton import Attempt, Work, newton
 from .trim_start import first_guess
 from .units import STANDARD_GRAVITY, convert
@@ -38,10 +38,12 @@ LIGHT = 0.05
 
 @dataclass(frozen=True)
 class Path:
-    """Conditions from an easy one (0) to that asked for (1); `told` says where the trim `x` on it stands."""
+    """Models from an easy one (0) to that asked for (1); `told` says where the trim `x` on it stands."""
 
-    at: Callable[[float], FlightCondition]
-    told: Callable[[FlightCondition, np.ndarray], str]
+    at: Callable[[float], Model]
+    told: Callable[[Model, np.ndarray], str]
+    start: np.ndarray | None = None
+    """Trim of the easy one, where it is known."""
 
 
 @dataclass(frozen=True)
@@ -60,6 +62,8 @@ def solve_condition(
 ) -> tuple[_core.TrimProblem, np.ndarray]:
     """Trim of the model's condition with dynamic inflow: its equations and unknowns."""
     work = work or Work(BUDGET)
+    if model.target is not None:
+        return to_target(model, n_harmonics, work)
     problem = trim_problem(model, None, n_harmonics)
     attempt = newton(model, problem, first_guess(model, problem), work)
     if attempt.met:
@@ -107,25 +111,71 @@ def solve_on_map(
     raise NumericalFailure(f"no trim found on the inflow of the wake: {limits} [{unmet(model, problem, attempt.x)}]")
 
 
+def to_target(model: Model, n_harmonics: int, work: Work) -> tuple[_core.TrimProblem, np.ndarray]:
+    """Trim to a power or a collective with a part of the path left free, from the trim of the condition as it stands.
+
+    There the power is another; what it is more turns into climb, what it is less into descent: the start of the trim asked for.
+    """
+    target = model.target
+    given = replace(model, target=None)
+    known, x = solve_condition(given, n_harmonics, work)
+    problem = trim_problem(model, None, n_harmonics)
+    first = given.core.trim_layout(known).path
+    x = np.insert(x, first, model.question.path[("speed", "flight_path").index(target.free)])
+    has = value_of(model, problem, x)
+    start = x.copy()
+    if target.name == "power" and target.free == "flight_path":
+        c = model.condition
+        climb = (target.value - has) / (c.gross_mass * STANDARD_GRAVITY * max(c.speed, 1.0))
+        start[first] = np.arcsin(np.clip(np.sin(c.flight_path) + climb, -0.5, 0.5))
+    attempt = newton(model, problem, start, work)
+    if attempt.met:
+        return problem, attempt.x
+    path = Path(
+        lambda s: replace(model, target=target.at(has + s * (target.value - has))),
+        lambda now, x: (
+            f"{target.name} ends at {target.shown(now.target.value)} of {target.shown(target.value)} {told_path(now, problem, x)}"
+        ),
+        x,
+    )
+    reached = follow(model, path, n_harmonics, work)
+    if reached is not None and reached.share == 1.0:
+        return problem, reached.x
+    raise NumericalFailure(why_none(model, problem, attempt, [reached] if reached else []))
+
+
+def value_of(model: Model, problem: _core.TrimProblem, x: np.ndarray) -> float:
+    """Power [W] or collective [rad] at the unknowns `x`."""
+    if model.target.name == "collective":
+        return float(model.pitch_controls(x[:4])[2])
+    return over_the_disk(model, problem, x, None)["power"]
+
+
 def paths(model: Model, n_harmonics: int, work: Work) -> Iterator[Path]:
     """Paths to the condition, the one that tells most where it ends first."""
     c = model.condition
+
+    def to(**values: float) -> Model:
+        return conditioned(model, c.changed(**values))
+
     if c.bank_share > 0.0:
         yield to_bank(model, n_harmonics, work)
     if c.turn_rate != 0.0:
         yield Path(
-            lambda s: c.changed(turn_rate=s * c.turn_rate, bank=np.arctan(s * np.tan(c.bank or 0.0))),
+            lambda s: to(turn_rate=s * c.turn_rate, bank=np.arctan(s * np.tan(c.bank or 0.0)), **slower_turn(c, s)),
             lambda now, x: f"turns end at {told_turn(now, x)} of {np.degrees(abs(c.turn_rate)):.1f} deg/s",
         )
     slope = abs(c.flight_path)
     if c.speed > 0.0:
         speeds = Path(
-            lambda s: c.changed(speed=s * c.speed, bank_share=c.bank_share * smooth_step(2.0 * s - 1.0)),
-            lambda now, x: f"speeds end at {told_speed(now.speed)} of {told_speed(c.speed)}",
+            lambda s: to(speed=s * c.speed, bank_share=c.bank_share * smooth_step(2.0 * s - 1.0), **slower_turn(c, s)),
+            lambda now, x: f"speeds end at {told_speed(now.condition.speed)} of {told_speed(c.speed)}",
         )
         slopes = Path(
-            lambda s: c.changed(flight_path=s * c.flight_path),
-            lambda now, x: f"paths end at {np.degrees(now.flight_path):.1f} of {np.degrees(c.flight_path):.1f} deg",
+            lambda s: to(flight_path=s * c.flight_path),
+            lambda now, x: (
+                f"paths end at {np.degrees(now.condition.flight_path):.1f} of {np.degrees(c.flight_path):.1f} deg"
+            ),
         )
         # a steep path is followed from hover, a shallow one from level flight
         steep = slope > np.radians(30.0)
@@ -133,9 +183,16 @@ def paths(model: Model, n_harmonics: int, work: Work) -> Iterator[Path]:
     light = c.gross_mass * LIGHT / blade_loading(model)
     if light < c.gross_mass:
         yield Path(
-            lambda s: c.changed(gross_mass=light + s * (c.gross_mass - light)),
-            lambda now, x: f"weights end at {told_mass(now.gross_mass)} of {told_mass(c.gross_mass)} lb",
+            lambda s: to(gross_mass=light + s * (c.gross_mass - light)),
+            lambda now, x: f"weights end at {told_mass(now.condition.gross_mass)} of {told_mass(c.gross_mass)} lb",
         )
+
+
+def slower_turn(condition: FlightCondition, share: float) -> dict[str, float]:
+    """The load factor of a turn at a share of its lateral acceleration, where it is given."""
+    if condition.load_factor is None:
+        return {}
+    return {"load_factor": float(np.hypot(1.0, share * np.sqrt(condition.load_factor**2 - 1.0)))}
 
 
 def to_bank(model: Model, n_harmonics: int, work: Work) -> Path:
@@ -146,13 +203,13 @@ def to_bank(model: Model, n_harmonics: int, work: Work) -> Path:
     found, asked = float(x[ROLL]), c.bank or 0.0
     if c.bank_share < 1.0:
         return Path(
-            lambda s: c.changed(bank_share=s * c.bank_share),
+            lambda s: conditioned(model, c.changed(bank_share=s * c.bank_share)),
             lambda now, x: (
-                f"the share of the bank in the convention ends at {now.bank_share:.2f} of {c.bank_share:.2f}"
+                f"the share of the bank in the convention ends at {now.condition.bank_share:.2f} of {c.bank_share:.2f}"
             ),
         )
     return Path(
-        lambda s: c.changed(bank=found + s * (asked - found)),
+        lambda s: conditioned(model, c.changed(bank=found + s * (asked - found))),
         lambda now, x: (
             f"with the heading free sideslip holds no bank beyond {np.degrees(x[ROLL]):.1f} of {np.degrees(asked):.1f} deg "
             f"(heading against track {np.degrees(x[YAW]):.0f} deg there; nose on the wind it is {np.degrees(found):.1f} deg)"
@@ -163,10 +220,11 @@ def to_bank(model: Model, n_harmonics: int, work: Work) -> Path:
 def follow(model: Model, path: Path, n_harmonics: int, work: Work) -> Reached | None:
     """Trims along a path, from 0 as far as they go; None where it does not begin."""
     here, problem = at(model, path, 0.0, n_harmonics)
-    attempt = newton(here, problem, first_guess(here, problem), work)
+    start = first_guess(here, problem) if path.start is None else path.start
+    attempt = newton(here, problem, start, work)
     if not attempt.met:
         return None
-    reached = Reached(0.0, here, problem, attempt.x, path.told(here.condition, attempt.x))
+    reached = Reached(0.0, here, problem, attempt.x, path.told(here, attempt.x))
     before: Reached | None = None
     advance = 0.25
     while reached.share < 1.0 and advance >= LEAST_ADVANCE and work.left > 0:
@@ -179,7 +237,7 @@ def follow(model: Model, path: Path, n_harmonics: int, work: Work) -> Reached | 
         attempt = newton(here, problem, start, work, FOLLOWED)
         if attempt.met and not jumped(here, problem, start, attempt.x):
             before = reached
-            reached = Reached(share, here, problem, attempt.x, path.told(here.condition, attempt.x))
+            reached = Reached(share, here, problem, attempt.x, path.told(here, attempt.x))
             advance *= 1.5 if attempt.steps <= FOLLOWED // 2 else 1.0
         else:
             advance *= 0.5
@@ -188,18 +246,21 @@ def follow(model: Model, path: Path, n_harmonics: int, work: Work) -> Reached | 
 
 def jumped(model: Model, problem: _core.TrimProblem, expected: np.ndarray, found: np.ndarray) -> bool:
     """Whether a trim on a path is another than the one followed: beyond stall a second one exists, at far more collective."""
-    change = np.abs(normalised(found) - expected)[:YAW] / scales(model, problem, found.size)[:YAW]
+    change = np.abs(model.normalised(found) - expected)[:YAW] / scales(model, problem)[:YAW]
     return float(np.max(change)) > LARGEST_CHANGE
 
 
 def at(model: Model, path: Path, share: float, n_harmonics: int) -> tuple[Model, _core.TrimProblem]:
     """Model and equations of a point of a path; at its end those of the condition itself."""
-    condition = model.condition if share == 1.0 else path.at(share)
-    if condition.gross_mass == model.condition.gross_mass:
-        here = replace(model, condition=condition)
-    else:
-        here = Model.build(model.aircraft, condition, model.inflow)
+    here = model if share == 1.0 else path.at(share)
     return here, trim_problem(here, None, n_harmonics)
+
+
+def conditioned(model: Model, condition: FlightCondition) -> Model:
+    """The model in another condition, compiled anew where its mass is another."""
+    if condition.gross_mass == model.condition.gross_mass:
+        return replace(model, condition=condition)
+    return Model.build(model.aircraft, condition, model.inflow, model.target)
 
 
 def mid_sticks(model: Model, problem: _core.TrimProblem) -> np.ndarray:
@@ -230,10 +291,17 @@ def blade_loading(model: Model) -> float:
     return model.condition.gross_mass * STANDARD_GRAVITY / force / model.aircraft.solidity
 
 
-def told_turn(now: FlightCondition, x: np.ndarray) -> str:
+def told_turn(now: Model, x: np.ndarray) -> str:
     """Rate, bank and load factor of a turn."""
-    load = np.hypot(1.0, now.turn_rate * now.speed * np.cos(now.flight_path) / STANDARD_GRAVITY)
-    return f"{np.degrees(x[ROLL]):.0f} deg of bank, load factor {load:.2f}, {np.degrees(abs(now.turn_rate)):.1f}"
+    c = now.condition
+    load = np.hypot(1.0, c.turn_rate * c.speed * np.cos(c.flight_path) / STANDARD_GRAVITY)
+    return f"{np.degrees(x[ROLL]):.0f} deg of bank, load factor {load:.2f}, {np.degrees(abs(c.turn_rate)):.1f}"
+
+
+def told_path(now: Model, problem: _core.TrimProblem, x: np.ndarray) -> str:
+    """Speed and slope of a path that was found."""
+    speed, flight_path, _ = now.core.trim_path(problem, x)
+    return f"with {told_speed(speed)} on a path of {np.degrees(flight_path):.1f} deg"
 
 
 def told_speed(speed: float) -> str:

@@ -7,8 +7,8 @@ import numpy as np
 
 from . import _core
 from .limits import momentum_inflows
-from .model import Model
-from .trim_equations import INCH, PITCH, ROLL, YAW
+from .model import PITCH, ROLL, YAW, Model
+from .trim_equations import INCH
 from .units import STANDARD_GRAVITY
 
 LIFT_SLOPE = 5.7  # 1/rad, of a section
@@ -22,7 +22,8 @@ def first_guess(model: Model, problem: _core.TrimProblem) -> np.ndarray:
     (8/3 theta_75 - 2 lambda) mu, whatever side the wind comes from; drag of four per cent of the weight at 80 kt, growing with
     the square of the speed; a turn banks by its lateral acceleration.
     """
-    modes, inflow, tail = model.core.trim_layout(problem)
+    layout = model.core.trim_layout(problem)
+    modes, inflow, tail = layout.modes, layout.inflow, layout.tail_inflow
     x = np.zeros(modes[-1])
     c, rotor, data = model.condition, model.rotor, model.data
     flat = c.speed * np.cos(c.flight_path)
@@ -50,6 +51,8 @@ def first_guess(model: Model, problem: _core.TrimProblem) -> np.ndarray:
     x[ROLL] = c.bank_share * (c.bank or 0.0) + (1.0 - c.bank_share) * (turning + drag * np.sin(sideslip))
     x[PITCH] = FORWARD_FLAPPING + data["rotor"]["shaft_tilt_forward"] - drag * np.cos(sideslip)
     x[YAW] = -sideslip
+    path = {"speed": c.speed, "flight_path": c.flight_path, "turn_rate": c.turn_rate}
+    x[layout.path : inflow] = [path[part] for part in model.question.free]
     if inflow < tail:
         x[inflow] = lambda_0
     if tail < modes[0]:

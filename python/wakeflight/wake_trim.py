@@ -7,7 +7,6 @@ counts as rest of a trim, and what is said where there is none [ribera2004].
 
 from __future__ import annotations
 
-import json
 from typing import Any
 
 import numpy as np
@@ -31,16 +30,8 @@ class WakeInTrim:
 
     def __init__(self, model: CompiledRotor, inflow_map: np.ndarray, steadied: bool = False):
         self.model = model
-        inflow = model.inflow
-        settling = {
-            "sweeps": inflow.sweeps,
-            "relaxation": inflow.relaxation,
-            "inflow_relaxation": inflow.inflow_relaxation,
-            "inflow_tolerance": inflow.inflow_tolerance,
-            "steadied": steadied,
-        }
         try:
-            self.core = _core.SteadyWake(model.core, model.wake_options, json.dumps(settling), inflow_map)
+            self.core = _core.SteadyWake(model.core, model.wake_options, steadied, inflow_map)
         except ValueError as reason:
             raise InputError(f"wake: {reason}") from reason
         self.n = model.steps_per_revolution

@@ -55,6 +55,23 @@ def _nothing_starts(monkeypatch):
         ([*FLY, "--wake-turns", "0"], "turns"),
         ([*FLY, "--wake-scheme", "euler"], "scheme"),
         ([*FLY, "--wake-scheme", "pcc", "--inflow", "dynamic"], "--wake-scheme"),
+        ([*FLY, "--wake", "core_raduis=0.03"], "nearest: core_radius"),
+        ([*FLY, "--wake", "colour=blue"], "allowed: turns, azimuth_step"),
+        ([*FLY, "--wake", "core_radius=0.5"], "core_radius = 0.5: must be a number between 0 and 0.2"),
+        ([*FLY, "--wake", "n_stations=20.5"], "must be a whole number between 5 and 200"),
+        ([*FLY, "--wake", "near_wake_angle=30"], "near_wake_angle"),
+        ([*FLY, "--wake", "rates=perhaps"], "allowed: true, false"),
+        ([*FLY, "--wake", "trailers=all"], "allowed: tip, full-span"),
+        ([*FLY, "--wake", "turns=3", "--wake-turns", "4"], "turns is given twice"),
+        ([*FLY, "--wake", "turns=3", "--wake", "turns=4"], "turns is given twice"),
+        ([*FLY, "--wake", "best"], "allowed: standard, paper, reference"),
+        ([*FLY, "--wake", "paper", "--wake", "standard"], "one preset at a time"),
+        ([*FLY, "--wake", "scheme=pcc", "--inflow", "relaxation"], "not an option of relaxation inflow"),
+        ([*FLY, "--wake", "tip_loss=none"], "not an option of time-marching inflow"),
+        (["trim", "--wake", "far_wake=cylinder", "--wake", "inboard_wake=sheet"], "far_wake"),
+        (["tunnel", "--wake", "turns=2.01"], "turns"),
+        (["compare", "arrested-descent", "--wake", "colour=blue"], "colour"),
+        ([*CONVERGE, "modes", "--values", "3, 4", "--wake", "rotor=1"], "rotor"),
         ([*FLY, "--integrator", "rk4"], "integrator"),
         ([*FLY, "--revolutions", "0"], "revolutions"),
         ([*FLY, "--revolutions", "many"], "revolutions"),
@@ -219,6 +236,33 @@ def test_help_needs_no_heavy_import():
     assert done.returncode == 0, done.stderr
     for command in ("fly", "compare", "trim", "modes", "tunnel", "report", "validate", "converge", "paper"):
         assert command in done.stdout
+
+
+VEHICLE = ["aircraft", "loading", "condition"]
+STRAIGHT = ["speed", "flight-path", "altitude", "weight"]
+CONDITION = [*STRAIGHT, "sideslip", "turn-rate", "bank"]
+WAKE = ["azimuth-step", "wake-turns", "wake-scheme"]
+RUN = ["threads", "out"]
+
+
+@pytest.mark.parametrize(
+    ("command", "names"),
+    [
+        ("fly", ["inflow", *VEHICLE, *CONDITION, "revolutions", *WAKE, "integrator", "blades", *RUN]),
+        ("compare", [*VEHICLE, *STRAIGHT, "revolutions", *WAKE, "integrator", *RUN]),
+        ("trim", ["inflow", *VEHICLE, *CONDITION, *WAKE, "blades", *RUN]),
+        ("modes", ["aircraft", "modes", "out"]),
+        ("report", ["out"]),
+        ("validate", ["cases", "fast", *RUN]),
+        ("paper", ["redraw", "studies", "jobs", "out"]),
+    ],
+)
+def test_the_options_of_a_command_stand_in_their_order(command, names):
+    from typer.testing import CliRunner
+
+    shown = CliRunner().invoke(cli.app, [command, "--help"], env={"COLUMNS": "200"}).output
+    found = [line.split()[0].removeprefix("--") for line in shown.splitlines() if line.strip().startswith("--")]
+    assert [name for name in found if name in names] == names
 
 
 def test_importing_the_package_imports_nothing_heavy():

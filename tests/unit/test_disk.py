@@ -68,7 +68,7 @@ def test_trim_stand_and_figures_state_the_same_harmonics(name, n_stations):
     start = wf.trim(wf.load_aircraft(name), wf.FlightCondition(speed="60 kt", flight_path="0 deg"), inflow=inflow)
     data = start.to_dataset()
     # the map of dynamic inflow is linear by construction: its states are the harmonics
-    _, i, _ = start.model.core.trim_layout(start.problem)
+    i = start.model.core.trim_layout(start.problem).inflow
     mean, sine, cosine = start.x[i : i + 3]
     for found in (of_trim(start), harmonics(data.inflow)):
         assert found == pytest.approx((mean, cosine, sine), abs=1e-14)

@@ -2,52 +2,54 @@
 """Inflow models: defaults, checks, and what the physics core is given."""
 
 import dataclasses
+import json
 import math
+import pickle
+import pydoc
 
+import numpy as np
 import pytest
 
 from wakeflight.aircraft import load_aircraft
+from wakeflight.condition import FlightCondition
 from wakeflight.errors import InputError
-from wakeflight.inflow import DynamicInflow, RelaxationWake, TimeMarchingWake, inflow_model, like, trim_model
-from wakeflight.references import known_keys
-
-KEYS = (
-    "n_blades radius root_cutout hinge_offset chord omega n_stations turns steps_per_revolution scheme "
-    "predictor evaluation summation tree_tolerance form time_filter trailers n_trailers trailer_core shed_wake tip_strength "
-    "tip_strength_inner inboard_wake n_sheet sheet_factor core_radius core_growth core_stretching "
-    "core_distance curvature_correction rates near_wake_angle near_wake_segments bound_core station_core_floor "
-    "far_wake far_wake_turns release_radius relaxation "
+from wakeflight.inflow import (
+    AnnularInflow,
+    DynamicInflow,
+    RelaxationWake,
+    TimeMarchingWake,
+    inflow_model,
+    like,
+    trim_model,
 )
+from wakeflight.model import Model
+from wakeflight.options import DECLARED, options_of
+from wakeflight.references import known_keys
 
 
 def test_the_defaults_are_those_of_the_coupled_flight():
     options = TimeMarchingWake().resolved("forward").core_options(load_aircraft("uh60a"))
-    assert list(options) == KEYS.split()
-    assert options["steps_per_revolution"] == 36
-    assert options["near_wake_angle"] == pytest.approx(math.pi / 6)
-    assert options["chord"] == pytest.approx(0.527304)
-    expected = {
-        "turns": 4.0,
-        "scheme": "bdf2",
-        "predictor": "same",
-        "form": "displacement",
-        "core_radius": 0.02,
-    }
-    expected |= {
-        "core_growth": 3e-4,
-        "tip_strength": "equivalent",
-        "inboard_wake": "none",
-        "bound_core": 0.25,
-    }
-    expected |= {"near_wake_segments": 6, "relaxation": 0.5, "n_stations": 20, "station_core_floor": 0.25}
-    assert {key: options[key] for key in expected} == expected
+    assert set(options) == {"rotor", "wake", "marching"}
+    wake, marching = options["wake"], options["marching"]
+    assert wake["azimuth_step"] == pytest.approx(math.pi / 18)
+    assert wake["near_wake_angle"] == pytest.approx(math.pi / 6)
+    assert options["rotor"]["chord"] == pytest.approx(0.527304)
+    expected = {"turns": 4.0, "form": "displacement", "core_radius": 0.02, "core_growth": 3e-4, "bound_core": 0.25}
+    expected |= {"tip_strength": "equivalent", "inboard_wake": "none", "near_wake_segments": 6, "n_stations": 20}
+    expected |= {"station_core_floor": 0.25, "far_wake_turns": 0, "sheet_factor": 1.0}
+    assert {key: wake[key] for key in expected} == expected
+    assert (marching["scheme"], marching["predictor"]) == ("bdf2", "same")
+    relaxed = RelaxationWake().resolved("forward").core_options(load_aircraft("uh60a"))
+    assert relaxed["wake"] == wake
+    assert relaxed["relaxation"]["relaxation"] == 0.5
 
 
 def test_options_reach_the_core():
     wake = TimeMarchingWake(turns=5, azimuth_step="5 deg", scheme="pc2b", tip_strength="max", inboard_wake="sheet")
     options = wake.resolved("forward").core_options(load_aircraft("uh60a"))
-    assert (options["turns"], options["steps_per_revolution"]) == (5.0, 72)
-    assert (options["scheme"], options["tip_strength"], options["inboard_wake"]) == ("pc2b", "max", "sheet")
+    assert (options["wake"]["turns"], options["wake"]["azimuth_step"]) == (5, pytest.approx(math.pi / 36))
+    assert (options["wake"]["tip_strength"], options["wake"]["inboard_wake"]) == ("max", "sheet")
+    assert options["marching"]["scheme"] == "pc2b"
 
 
 @pytest.mark.parametrize(
@@ -72,6 +74,11 @@ def test_options_reach_the_core():
         (RelaxationWake, {"relaxation": 0.0}),
         (RelaxationWake, {"max_loops": 0}),
         (DynamicInflow, {"azimuth_step": "7 deg"}),
+        (AnnularInflow, {"tip_loss": "some"}),
+        (TimeMarchingWake, {"near_wake_angle": "120 deg"}),
+        (TimeMarchingWake, {"update_interval": "3700 deg"}),
+        (RelaxationWake, {"n_trailers": 2.0}),
+        (RelaxationWake, {"far_wake_turns": True}),
     ],
 )
 def test_a_wrong_option_is_refused_by_name(model, given):
@@ -140,3 +147,103 @@ def test_update_intervals_are_whole_steps(uh60a, value, steps):
 def test_options_of_the_exchange_are_checked(uh60a, options, named):
     with pytest.raises(InputError, match=named):
         TimeMarchingWake(**options).resolved("forward").core_options(uh60a)
+
+
+def test_the_core_declares_each_option_with_all_that_is_said_of_it():
+    for option in DECLARED:
+        assert option.meaning
+        assert option.models
+        assert (option.range is None) == (option.kind in ("word", "switch")), option.name
+        assert bool(option.words) == (option.kind == "word"), option.name
+        # the default can be given, as it is shown
+        if option.default is not None:
+            assert option.checked(option.shown(option.default)) == option.default
+
+
+MODELS = (TimeMarchingWake, RelaxationWake, DynamicInflow, AnnularInflow)
+
+
+@pytest.mark.parametrize("kind", MODELS)
+def test_help_tells_every_option_of_a_model_and_no_other(kind):
+    told = pydoc.render_doc(kind, renderer=pydoc.plaintext)
+    for option in DECLARED:
+        assert (f"{option.name} : " in told) == (option.name in options_of(kind.name))
+        if kind.name in option.models:
+            assert option.meaning in told
+            assert option.default_in_words in told
+
+
+@pytest.mark.parametrize("kind", MODELS)
+def test_a_model_is_a_value(kind):
+    first = next(iter(options_of(kind.name).values()))
+    assert first.name == "turns" or kind in (DynamicInflow, AnnularInflow)
+    model = kind(n_stations=12, azimuth_step="15 deg")
+    assert model == kind(azimuth_step="15 deg", n_stations=12) != kind()
+    assert hash(model) == hash(dataclasses.replace(kind(azimuth_step="15 deg"), n_stations=12))
+    assert pickle.loads(pickle.dumps(model)) == model
+    assert dataclasses.replace(pickle.loads(pickle.dumps(model)), n_stations=12) == model
+    assert repr(model) == f"{kind.__name__}(azimuth_step='15 deg', n_stations=12)"
+    assert eval(repr(model), {kind.__name__: kind}) == model
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        model.n_stations = 20
+    with pytest.raises(TypeError, match="colour"):
+        kind(colour="blue")
+
+
+def test_options_that_do_not_go_with_the_rotor_are_refused_before_anything_starts(uh60a):
+    for given, named in (
+        ({"far_wake": "cylinder", "inboard_wake": "sheet"}, "far_wake = 'cylinder'"),
+        ({"turns": 1.0, "far_wake_turns": 1}, "far_wake_turns = 1: must be 0 unless turns"),
+    ):
+        with pytest.raises(InputError, match=named):
+            RelaxationWake(**given).resolved("hover").core_options(uh60a)
+
+
+def test_another_rotors_options_are_refused(uh60a):
+    model = Model.build(uh60a, FlightCondition().completed(uh60a), RelaxationWake())
+    options = json.loads(model.wake_options)
+    far = np.zeros((1, 20))
+    motion = np.zeros((1, len(model.rotor["frequencies"])))
+
+    def solve():
+        return model.core.solve_circulation(
+            json.dumps(options),
+            np.zeros(len(model.core.state_names())),
+            [0.1] * 4,
+            [0.0] * 4,
+            np.zeros(1),
+            motion,
+            motion,
+            far,
+            far,
+        )
+
+    for name, value in (("radius", 7.0), ("n_blades", 5), ("hinge_offset", 0.1), ("omega", 30.0), ("root_cutout", 1.0)):
+        kept, options["rotor"][name] = options["rotor"][name], value
+        with pytest.raises(ValueError, match=f"{name} = .*that of the rotor|azimuth_step"):
+            solve()
+        options["rotor"][name] = kept
+
+
+@pytest.mark.parametrize("kind", MODELS)
+def test_the_standard_preset_is_the_default_and_options_replace_those_of_a_preset(kind):
+    assert kind.preset() == kind.preset("standard") == kind()
+    assert kind.preset("paper", n_stations=30).n_stations == 30
+    with pytest.raises(InputError, match="standard, paper, reference"):
+        kind.preset("best")
+
+
+def test_presets_are_what_they_say():
+    reference = TimeMarchingWake.preset("reference")
+    assert (reference.trailers, reference.n_trailers, reference.turns) == ("full-span", 10, 10)
+    # the manoeuvres of the paper are flown with the defaults (docs/paper.md), whose numbers the preset pins
+    paper = TimeMarchingWake.preset("paper").resolved("forward").core_options(load_aircraft("uh60a"))
+    assert paper == TimeMarchingWake().resolved("forward").core_options(load_aircraft("uh60a"))
+    assert RelaxationWake.preset("paper").max_loops_response == 10
+
+
+def test_models_say_what_they_are():
+    assert [kind.is_free_wake for kind in MODELS] == [True, True, False, False]
+    assert [kind.is_marching for kind in MODELS] == [True, False, False, False]
+    assert [kind.is_dynamic for kind in MODELS] == [False, False, True, False]
+    assert [kind.is_annular for kind in MODELS] == [False, False, False, True]

@@ -1,13 +1,11 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """The regime of a rotor, and the options of a wake that depend on it: the same in trim, flight and on the stand."""
 
-import inspect
-
 import pytest
 from typer.testing import CliRunner
 
 import wakeflight as wf
-from wakeflight import cli, inflow, regime
+from wakeflight import cli, options, regime
 from wakeflight.condition import condition_for
 from wakeflight.inflow import trim_model
 from wakeflight.model import Model
@@ -19,11 +17,11 @@ KINDS = (wf.RelaxationWake, wf.TimeMarchingWake)
 
 
 def left_to_the_regime(model):
-    return {name: getattr(model, name) for name in regime.BY_REGIME if hasattr(model, name)}
+    return {name: getattr(model, name) for name in options.BY_REGIME if hasattr(model, name)}
 
 
 def numbers(kind, name):
-    return {option: regime.BY_REGIME[option][name] for option in left_to_the_regime(kind())}
+    return {option: options.BY_REGIME[option][name] for option in left_to_the_regime(kind())}
 
 
 @pytest.mark.parametrize(
@@ -113,12 +111,11 @@ def test_a_flight_marches_the_wake_its_trim_relaxed(uh60a, speed, given):
 
 
 def test_help_names_the_numbers_of_every_regime():
-    assert regime.described("turns") == "by regime: 4 forward, 5 hover and climb, 8 axial descent"
+    assert options.described("turns") == "by regime: 4 forward, 5 hover and climb, 8 axial descent"
     shown = CliRunner().invoke(cli.app, ["trim", "--help"], env={"COLUMNS": "300"}).output
-    assert regime.described("turns") in " ".join(shown.split())
-    # the docstrings of the options, which documentation shows, name the numbers of the table
-    source = " ".join(inspect.getsource(inflow).split())
-    for name, values in regime.BY_REGIME.items():
-        text = regime.described(name).removeprefix("by regime: ")
-        assert text in source, name
+    assert options.described("turns") in " ".join(shown.split())
+    # the help of the options, which documentation shows, names the numbers of the table
+    source = wf.RelaxationWake.__doc__
+    for name, values in options.BY_REGIME.items():
+        assert options.described(name) in source, name
         assert set(values) == set(regime.REGIMES)

@@ -78,10 +78,10 @@ def test_a_column_of_another_code_is_refused_unless_it_says_nothing(tmp_path, co
     assert wf.load_rotor(rotor(tmp_path, old=end, new=f"{end}, {column} = [0, 0]")).warnings == ()
 
 
-def test_sections_along_the_span_are_refused_by_the_key_the_file_has(tmp_path):
+def test_sections_that_do_not_say_where_they_are_are_refused_by_the_key_the_file_has(tmp_path):
     two = "[[rotor.airfoil]]\nname = 'root'\nextent = [0.2, 0.5]\n" + POLAR
     path = rotor(tmp_path, old='[rotor.airfoil]\nname = "section"\n', new=two + "[[rotor.airfoil]]\nname = 'tip'\n")
-    refused(path, "rotor.airfoil", "one section along the span is all there is")
+    refused(path, "rotor.airfoil", "2 sections", "needs stations", "extent")
 
 
 @pytest.mark.parametrize(
@@ -130,14 +130,14 @@ def test_a_deck_behind_a_preamble_is_the_same_deck(tmp_path):
 
 def test_a_deck_without_moments_has_none(tmp_path):
     loaded = of_deck(tmp_path, deck(cm=None))
-    assert {cell for row in loaded.data["airfoil"]["cm"]["values"] for cell in row} == {0.0}
+    assert {cell for row in loaded.data["airfoil"]["tables"][0]["cm"]["values"] for cell in row} == {0.0}
     assert "no cm" in loaded.warnings[0]
 
 
 def test_a_deck_up_to_a_mach_number_no_blade_reaches_is_used(tmp_path):
     loaded = of_deck(tmp_path, deck(mach=(0, 0.3, 0.8)))
     assert loaded.warnings == ()
-    assert loaded.data["airfoil"]["cl"]["y"][-1] == 0.8
+    assert loaded.data["airfoil"]["tables"][0]["cl"]["y"][-1] == 0.8
     (warning,) = of_deck(tmp_path, deck(mach=(0, 0.3))).warnings
     assert "end at Mach 0.3" in warning
     assert "0.44" in warning
@@ -184,7 +184,7 @@ def test_a_byte_order_mark_is_no_content(tmp_path, mark):
     marked(tmp_path / "deck.c81", "\n".join(deck()))
     for section in (DECK, 'cl = { table = "cl.csv" }\ncd = { table = "cd.csv" }\n', POLAR):
         loaded = wf.load_rotor(marked(rotor(tmp_path), ROTOR + section))
-        assert loaded.data["airfoil"]["cl"]["x"][0] == -math.pi
+        assert loaded.data["airfoil"]["tables"][0]["cl"]["x"][0] == -math.pi
 
 
 def test_text_that_is_not_utf8_is_named_with_its_place(tmp_path):

@@ -7,6 +7,7 @@ import pytest
 
 import wakeflight as wf
 from wakeflight import _core
+from wakeflight.simulation import flight_model
 
 
 @pytest.fixture(scope="module")
@@ -106,9 +107,7 @@ def test_wrong_shapes_and_numbers_are_refused_by_the_exchange(baseline_relaxatio
     model, core = start.model, start.model.core
     y, n = start.state(), model.steps_per_revolution
     motion = core.trim_motion(start.problem, start.x, n)
-    exchange = _core.Exchange.marching(
-        core, start.wake.core, model.wake_options, '{"recorrect": 0, "extrapolate": false}'
-    )
+    exchange = _core.Exchange.marching(core, start.wake.core, flight_model(start, "time-marching").wake_options)
     good = dict(y=y, stick=start.stick_si, stick_rate=np.zeros(4))
     for bad, named in (
         ({"y": y[:5]}, "y has 5 numbers"),
@@ -124,7 +123,7 @@ def test_wrong_shapes_and_numbers_are_refused_by_the_exchange(baseline_relaxatio
     with pytest.raises(ValueError, match="q has the shape"):
         exchange.turn(core, y, start.stick_si, (motion[0][:3], motion[1][:3]))
     with pytest.raises(ValueError, match="inflow has the shape"):
-        _core.SteadyWake(core, model.wake_options, "{}", np.zeros((3, 3)))
+        _core.SteadyWake(core, model.wake_options, False, np.zeros((3, 3)))
     for kind in (_core.Exchange, _core.SteadyWake, _core.TrimProblem):
         with pytest.raises(ValueError, match="cannot be read"):
             kind.from_bytes(b"nothing")

@@ -64,7 +64,7 @@ class Blades:
         self.ends = np.linspace(self.blade["root_station"], self.blade["radius"], d.n_elements + 1)
         self._mass_points()
         self._stations(model.stations.size, tip_loss)
-        airfoil = self.data["airfoil"]
+        airfoil = self.data["airfoil"]["tables"][0]
         self.tables = {
             name: RegularGridInterpolator((airfoil[name]["x"], airfoil[name]["y"]), airfoil[name]["values"])
             for name in ("cl", "cd", "cm")
@@ -245,7 +245,7 @@ class Blades:
         alpha, speed = np.arctan2(at_three, -wind_c), np.hypot(wind_c, at_quarter)
         where = np.column_stack([alpha, speed / self.model.speed_of_sound])
         cl, cd, cm = (self.tables[name](where) for name in ("cl", "cd", "cm"))
-        cd = cd + self.data["airfoil"]["cd_increment"]
+        cd = cd + self.data["airfoil"]["tables"][0]["cd_increment"]
         pressure = 0.5 * self.model.density * self.chord * speed
         lift, drag = pressure * self.lift_width * cl, pressure * self.width * cd
         force = c * (lift * at_quarter + drag * wind_c)[:, None] + n * (drag * at_quarter - lift * wind_c)[:, None]

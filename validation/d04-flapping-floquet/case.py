@@ -105,7 +105,8 @@ def linear():
     def table(values):
         return {"x": alpha, "y": [0.0, 1.0], "values": [[v, v] for v in values]}
 
-    return {"cl": table(lift), "cd": table([0.0] * 6), "cm": table([0.0] * 6), "cd_increment": 0.0}
+    section = {"cl": table(lift), "cd": table([0.0] * 6), "cm": table([0.0] * 6), "cd_increment": 0.0}
+    return {"stations": [0.0], "stepwise": False, "tables": [section]}
 
 
 def run(case):

@@ -43,11 +43,13 @@ def fixed_wing(table, i):
 def wing(ratio, n):
     """Edges and stations along the span, circulation over U alpha, downwash angle over alpha, of a wing of unit chord."""
     options = wf.RelaxationWake(near_wake_angle="10 deg").resolved("forward").core_options(wf.load_aircraft("uh60a"))
-    options |= {"n_blades": 1, "radius": FAR + ratio / 2, "root_cutout": FAR - ratio / 2, "hinge_offset": 0.0,
-                "chord": 1.0, "omega": 1.0 / FAR, "n_stations": n, "near_wake_segments": 60}  # fmt: skip
+    rotor = {"n_blades": 1, "radius": FAR + ratio / 2, "root_cutout": FAR - ratio / 2, "hinge_offset": 0.0,
+             "chord": 1.0, "omega": 1.0 / FAR}  # fmt: skip
+    options["rotor"] = rotor
+    options["wake"] |= {"n_stations": n, "near_wake_segments": 60}
     at_rest = ([0.0, 0.0, 0.0], [0.0, 0.0, 0.0])
     text = json.dumps(options)
-    tip_speed = options["omega"] * options["radius"]
+    tip_speed = rotor["omega"] * rotor["radius"]
     matrix = _core.near_wake_matrix(text, *at_rest, 0.0, 0.0, 0.0) * tip_speed
     grid = _core.RelaxationWake(text, *at_rest, 0.0)
     # Gamma = c/2 2 pi (U alpha - w): the section's lift-curve slope is 2 pi

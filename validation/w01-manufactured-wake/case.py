@@ -34,8 +34,9 @@ def options(steps, scheme="bdf2", form="displacement"):
         turns=TURNS, azimuth_step=f"{360 / steps} deg", near_wake_angle="0 deg", scheme=scheme, form=form
     )
     wake = wake.resolved("forward").core_options(AIRCRAFT)
-    wake |= {"n_blades": 1, "radius": 1.0, "root_cutout": 0.2, "hinge_offset": 0.0, "chord": 0.05, "omega": 1.0,
-             "n_stations": 5, "relaxation": 1.0}  # fmt: skip
+    wake["rotor"] = {"n_blades": 1, "radius": 1.0, "root_cutout": 0.2, "hinge_offset": 0.0, "chord": 0.05, "omega": 1.0}
+    wake["wake"]["n_stations"] = 5
+    wake["relaxation"] = {"relaxation": 1.0}
     return json.dumps(wake)
 
 

@@ -13,16 +13,16 @@ RADIUS, OMEGA, STEPS = 2.0, 100.0, 36
 
 def guess(mu, inflow, turns=2):
     """Markers (azimuths, ages, 3) over the radius."""
-    options = {
+    rotor = {
         "n_blades": 2,
         "radius": RADIUS,
         "root_cutout": 0.2 * RADIUS,
         "hinge_offset": 0.0,
         "chord": 0.1,
         "omega": OMEGA,
-        "turns": float(turns),
-        "steps_per_revolution": STEPS,
     }
+    wake = {"turns": float(turns), "azimuth_step": 2 * np.pi / STEPS}
+    options = {"rotor": rotor, "wake": wake, "relaxation": {}}
     # the hub moves against x, which points aft
     wake = _core.RelaxationWake(json.dumps(options), [-mu * OMEGA * RADIUS, 0, 0], [0, 0, 0], inflow)
     return wake.position() / RADIUS

@@ -15,18 +15,21 @@ def cores(rotor):
     """Core radius [m] at the nodes 1 .. n-1 of a filament, from its segments."""
     radius, omega = rotor["R"], rotor["Omega"]
     growth = 4 * ALPHA * rotor["delta"] * rotor["nu"] / (omega * radius**2)
-    options = {
+    known = {
         "n_blades": 2,
         "radius": radius,
         "root_cutout": 0.2 * radius,
         "hinge_offset": 0.0,
         "chord": 0.1 * radius,
         "omega": omega,
+    }
+    wake = {
         "turns": float(TURNS),
-        "steps_per_revolution": STEPS,
+        "azimuth_step": 2 * np.pi / STEPS,
         "core_radius": rotor["r0"] / radius,
         "core_growth": growth,
     }
+    options = {"rotor": known, "wake": wake, "relaxation": {}}
     wake = _core.RelaxationWake(json.dumps(options), [-0.1 * omega * radius, 0, 0], [0, 0, 0], 0.03)
     squared = wake.core_radius()[0] ** 2
     return np.sqrt(0.5 * (squared[1:] + squared[:-1]))

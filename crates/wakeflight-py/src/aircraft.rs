@@ -1,25 +1,24 @@
 //! The aircraft: F, its Jacobian, trim equations, exchange with the wake, outputs.
 
-use crate::checks::{pack, sized, unpack};
+use crate::checks::sized;
 use crate::rotor::{motion, rotor_constants};
+use crate::trim::{self, Motion, PyTrimLayout, PyTrimProblem};
 use numpy::ndarray::Array;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
 use numpy::{PyReadwriteArray1, PyReadwriteArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyDict};
-use std::f64::consts::TAU;
+use pyo3::types::PyDict;
 use wakeflight::aircraft::data::AircraftData;
 use wakeflight::aircraft::model::{Aircraft, HeldInflow, Inputs};
-use wakeflight::aircraft::trim::{Convention, TrimInflow, TrimProblem};
 use wakeflight::airframe::servo::Scheduled;
 use wakeflight::blade::aerodynamics::Air;
 use wakeflight::blade::model::Discretisation;
 use wakeflight::numerics::frames::{Hub, Vec3};
 use wakeflight::rotor::circulation::BladeInstant;
-use wakeflight::wake::WakeOptions;
+use wakeflight::trim::residual::Trim;
 
-fn invalid(error: impl std::fmt::Display) -> PyErr {
+pub(crate) fn invalid(error: impl std::fmt::Display) -> PyErr {
     PyValueError::new_err(error.to_string())
 }
 
@@ -66,51 +65,6 @@ impl PyInputs {
             }
             _ => Ok(&self.0),
         }
-    }
-}
-
-/// A steady condition to trim for; see `wakeflight.trim`.
-#[pyclass(name = "TrimProblem", frozen)]
-pub struct PyTrimProblem(TrimProblem);
-
-#[pymethods]
-impl PyTrimProblem {
-    /// Lateral convention: `bank` and `sideslip` [rad], and the share of the bank in its equation; inflow
-    /// (n_azimuths, n_stations) or None (dynamic).
-    #[new]
-    #[allow(clippy::too_many_arguments, reason = "the fields of the problem")]
-    #[pyo3(signature = (speed, flight_path, turn_rate, bank, sideslip, bank_share, n_harmonics, n_azimuths, inflow, mean_inflow))]
-    fn new(
-        speed: f64,
-        flight_path: f64,
-        turn_rate: f64,
-        bank: f64,
-        sideslip: f64,
-        bank_share: f64,
-        n_harmonics: usize,
-        n_azimuths: usize,
-        inflow: Option<PyReadonlyArray2<f64>>,
-        mean_inflow: f64,
-    ) -> Self {
-        let convention = Convention { bank, sideslip, bank_share };
-        let inflow = match inflow {
-            None => TrimInflow::Dynamic,
-            Some(map) => {
-                TrimInflow::Map { inflow: map.as_array().iter().copied().collect(), mean: mean_inflow }
-            }
-        };
-        Self(TrimProblem { speed, flight_path, turn_rate, convention, n_harmonics, n_azimuths, inflow })
-    }
-
-    /// Everything of it, exact.
-    fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        pack(py, &self.0)
-    }
-
-    /// From `to_bytes`.
-    #[staticmethod]
-    fn from_bytes(bytes: &[u8]) -> PyResult<Self> {
-        unpack("trim problem", bytes).map(Self)
     }
 }
 
@@ -224,15 +178,9 @@ impl PyAircraft {
         Ok(())
     }
 
-    /// Names of the trim equations.
-    fn trim_equations(&self, problem: &PyTrimProblem) -> Vec<String> {
-        self.inner.trim_layout(&problem.0).equations()
-    }
-
-    /// Index of the first unknown of every mode, and of inflow and tail-rotor inflow.
-    fn trim_layout(&self, problem: &PyTrimProblem) -> (Vec<usize>, usize, usize) {
-        let l = self.inner.trim_layout(&problem.0);
-        ((0..=self.inner.layout.n_modes).map(|i| l.mode(i)).collect(), l.inflow(), l.tail_inflow())
+    /// Layout of the unknowns and equations of a trim.
+    fn trim_layout(&self, problem: &PyTrimProblem) -> PyResult<PyTrimLayout> {
+        trim::layout(&self.inner, problem)
     }
 
     /// Residual of the trim equations.
@@ -242,10 +190,7 @@ impl PyAircraft {
         problem: &PyTrimProblem,
         x: PyReadonlyArray1<f64>,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        let x = x.as_slice()?;
-        let mut f = vec![0.0; x.len()];
-        py.detach(|| self.inner.trim_residual_of_four(&problem.0, x, &mut f));
-        Ok(f.into_pyarray(py))
+        trim::residual(py, &self.inner, problem, &x)
     }
 
     /// Exact Jacobian of the trim equations (n, n).
@@ -255,11 +200,25 @@ impl PyAircraft {
         problem: &PyTrimProblem,
         x: PyReadonlyArray1<f64>,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let x = x.as_slice()?;
-        let n = x.len();
-        let mut j = vec![0.0; n * n];
-        py.detach(|| self.inner.trim_jacobian(&problem.0, x, &mut j));
-        Ok(Array::from_shape_vec((n, n), j).map_err(invalid)?.into_pyarray(py))
+        trim::jacobian(py, &self.inner, problem, &x)
+    }
+
+    /// Modal coordinates and rates (n_azimuths, n_modes) of the periodic motion.
+    fn trim_motion<'py>(
+        &self,
+        py: Python<'py>,
+        problem: &PyTrimProblem,
+        x: PyReadonlyArray1<f64>,
+        n_azimuths: usize,
+    ) -> PyResult<Motion<'py>> {
+        trim::motion(py, &self.inner, problem, &x, n_azimuths)
+    }
+
+    /// Airspeed [m/s], flight-path angle [rad], rate of turn [rad/s] of the trimmed flight.
+    fn trim_path(&self, problem: &PyTrimProblem, x: PyReadonlyArray1<f64>) -> PyResult<(f64, f64, f64)> {
+        let trim = Trim::new(&self.inner, &problem.0).map_err(invalid)?;
+        let path = trim.layout.head(trim.checked(x.as_slice()?).map_err(invalid)?).path;
+        Ok((path.speed, path.flight_path, path.turn_rate))
     }
 
     /// State and its rate at time `t` of the trimmed revolution.
@@ -270,14 +229,16 @@ impl PyAircraft {
         x: PyReadonlyArray1<f64>,
         t: f64,
     ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>)> {
-        let (y, y_dot) = self.inner.trim_state(&problem.0, x.as_slice()?, t);
+        let trim = Trim::new(&self.inner, &problem.0).map_err(invalid)?;
+        let (y, y_dot) = trim.state(trim.checked(x.as_slice()?).map_err(invalid)?, t);
         Ok((y.into_pyarray(py), y_dot.into_pyarray(py)))
     }
 
     /// Stabilator incidence in trim [rad].
     fn trim_stabilator(&self, problem: &PyTrimProblem, x: PyReadonlyArray1<f64>) -> PyResult<f64> {
-        let inputs = self.inner.trim_inputs(&problem.0, x.as_slice()?, HeldInflow::Dynamic);
-        Ok(inputs.stabilator_incidence)
+        let trim = Trim::new(&self.inner, &problem.0).map_err(invalid)?;
+        let x = trim.checked(x.as_slice()?).map_err(invalid)?;
+        Ok(trim.inputs(x, HeldInflow::Dynamic).stabilator_incidence)
     }
 
     /// Stabilator incidence [rad] after `delta_t` [s] on the way from `incidence` toward its schedule at state `y` and collective
@@ -296,26 +257,6 @@ impl PyAircraft {
         let density = self.inner.air.density;
         let seen = Scheduled { velocity: [u, v, w], pitch_rate, collective, density };
         Ok(self.inner.airframe.followed_incidence(incidence, &seen, delta_t))
-    }
-
-    /// Modal coordinates and rates (n_azimuths, n_modes) of the periodic motion.
-    fn trim_motion<'py>(
-        &self,
-        py: Python<'py>,
-        problem: &PyTrimProblem,
-        x: PyReadonlyArray1<f64>,
-        n_azimuths: usize,
-    ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>)> {
-        let l = self.inner.trim_layout(&problem.0);
-        let n = self.inner.layout.n_modes;
-        let (mut q, mut q_dot) = (Vec::new(), Vec::new());
-        for k in 0..n_azimuths {
-            let m = self.inner.periodic_motion(&l, x.as_slice()?, TAU * k as f64 / n_azimuths as f64);
-            q.extend_from_slice(&m.q[..n]);
-            q_dot.extend_from_slice(&m.q_dot[..n]);
-        }
-        let shape = |v| Array::from_shape_vec((n_azimuths, n), v).map_err(invalid);
-        Ok((shape(q)?.into_pyarray(py), shape(q_dot)?.into_pyarray(py)))
     }
 
     /// Hub velocity [m/s] and rates [rad/s], non-rotating hub axes.
@@ -358,7 +299,7 @@ impl PyAircraft {
         lambda_far: PyReadonlyArray2<f64>,
         start: PyReadonlyArray2<f64>,
     ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>, f64, usize)> {
-        let options: WakeOptions = serde_json::from_str(wake_options).map_err(invalid)?;
+        let options = crate::options::wake_options(wake_options)?;
         let y = y.as_slice()?;
         let hub = self.inner.hub_motion(y, &vec![0.0; y.len()]);
         let inputs = Inputs {
@@ -384,7 +325,7 @@ impl PyAircraft {
         let start: Vec<f64> = start.as_array().iter().copied().collect();
         let all = py
             .detach(|| self.inner.rotor.circulations(self.inner.air, &options, &hub, &instants, &far, &start))
-            .map_err(|e| pyo3::exceptions::PyArithmeticError::new_err(e.to_string()))?;
+            .map_err(crate::wake::py_error)?;
         let shape = |v| Array::from_shape_vec((instants.len(), n), v).map_err(invalid);
         let (gamma, inflow) = (shape(all.gamma)?, shape(all.inflow)?);
         Ok((gamma.into_pyarray(py), inflow.into_pyarray(py), all.residual, all.followed))

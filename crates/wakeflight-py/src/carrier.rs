@@ -72,7 +72,7 @@ impl Core<'_> {
             Self::Stand(s) => {
                 let controls = stick.try_into().map_err(|_| wrong())?;
                 let rates = rate.try_into().map_err(|_| wrong())?;
-                Ok(MovingPitch { controls, rates, higher: &s.higher }
+                Ok(MovingPitch { controls, rates, higher: &s.inner.higher }
                     .at(0.0, psi, s.inner.rotor.omega)
                     .into())
             }

@@ -2,7 +2,8 @@
 
 use crate::carrier::Core;
 use crate::checks::{map, numbers, pack, unpack};
-use crate::wake::{RelaxationWake, TimeMarchingWake as PyTimeMarchingWake, parse_options, py_error};
+use crate::options::{marching_options, relaxation_options, wake_options};
+use crate::wake::{RelaxationWake, TimeMarchingWake as PyTimeMarchingWake, py_error};
 use crate::wake::{lattice, matrix, vectors};
 use numpy::ndarray::Array;
 use numpy::{IntoPyArray, PyArray2, PyArray3, PyArray4, PyReadonlyArray1, PyReadonlyArray2};
@@ -38,19 +39,19 @@ fn changes<'py>(py: Python<'py>, c: &Changes) -> PyResult<Bound<'py, PyDict>> {
 
 #[pymethods]
 impl PySteadyWake {
-    /// On an inflow map (n_azimuths, n_stations); options of the wake and of its settling as JSON.
+    /// On an inflow map (n_azimuths, n_stations); `steadied`: shorter steps of the geometry are taken where it circles.
     #[new]
     fn new(
         core: Core<'_>,
         options_json: &str,
-        settling_json: &str,
+        steadied: bool,
         inflow: PyReadonlyArray2<f64>,
     ) -> PyResult<Self> {
-        let options = parse_options(options_json)?;
-        let settling = serde_json::from_str(settling_json)
-            .map_err(|e| PyValueError::new_err(format!("settling of the wake: {e}")))?;
-        let inflow = map("inflow", &inflow, options.steps_per_revolution, options.n_stations)?;
-        Ok(Self { inner: SteadyWake::new(options, settling, core.rotor().0, inflow) })
+        let options = wake_options(options_json)?;
+        options.validate().map_err(py_error)?;
+        let own = relaxation_options(options_json)?;
+        let inflow = map("inflow", &inflow, options.steps_per_revolution(), options.n_stations)?;
+        Ok(Self { inner: SteadyWake::new(options, own, steadied, core.rotor().0, inflow) })
     }
 
     /// Iterates wake and circulation for hub motion `y`, sticks, and a periodic blade motion (n_azimuths, n_modes); whether they
@@ -183,42 +184,32 @@ impl PyExchange {
         Self { inner: Exchange::Dynamic, n_blades: core.rotor().0.n_blades, n }
     }
 
-    /// Relaxation wake from that of a trim and the periodic motion of its blades (n_azimuths, n_modes); renewal as JSON.
+    /// Relaxation wake from that of a trim and the periodic motion of its blades (n_azimuths, n_modes).
     #[staticmethod]
     fn relaxation(
         core: Core<'_>,
         steady: &PySteadyWake,
         motion: (PyReadonlyArray2<f64>, PyReadonlyArray2<f64>),
-        renewal_json: &str,
+        options_json: &str,
     ) -> PyResult<Self> {
         let n = steady.inner.n_azimuths();
         let motion = core.motions((&motion.0, &motion.1), n)?;
-        let renewal = serde_json::from_str(renewal_json)
-            .map_err(|e| PyValueError::new_err(format!("renewal of the wake: {e}")))?;
+        let own = relaxation_options(options_json)?;
         let rotor = core.rotor().0;
-        let wake = RelaxationExchange::new(steady.inner.clone(), rotor, renewal, &motion);
+        let wake = RelaxationExchange::new(steady.inner.clone(), rotor, &own, &motion);
         Ok(Self { inner: Exchange::Relaxation(Box::new(wake)), n_blades: rotor.n_blades, n })
     }
 
-    /// Marching wake from the periodic one of a trim, blade 1 at azimuth zero; options of wake and exchange as JSON.
+    /// Marching wake from the periodic one of a trim, blade 1 at azimuth zero.
     #[staticmethod]
-    fn marching(
-        core: Core<'_>,
-        steady: &PySteadyWake,
-        options_json: &str,
-        exchange_json: &str,
-    ) -> PyResult<Self> {
-        let options = parse_options(options_json)?;
-        let chosen = serde_json::from_str(exchange_json)
-            .map_err(|e| PyValueError::new_err(format!("options of the exchange: {e}")))?;
+    fn marching(core: Core<'_>, steady: &PySteadyWake, options_json: &str) -> PyResult<Self> {
         let Some(relaxation) = &steady.inner.wake else {
             return Err(PyValueError::new_err("steady wake: it has not been converged for any motion"));
         };
-        let mut wake = TimeMarchingWake::from_relaxation(relaxation, 0).map_err(py_error)?;
-        wake.set_scheme(options.scheme, options.predictor, options.time_filter).map_err(py_error)?;
-        wake.set_evaluation(options.evaluation);
+        let own = marching_options(options_json, relaxation.options())?;
+        let wake = TimeMarchingWake::from_relaxation(relaxation, 0, own).map_err(py_error)?;
         let rotor = core.rotor().0;
-        let inner = MarchingExchange::new(wake, chosen, &steady.inner, rotor);
+        let inner = MarchingExchange::new(wake, &steady.inner, rotor);
         let n = steady.inner.n_azimuths();
         Ok(Self { inner: Exchange::Marching(Box::new(inner)), n_blades: rotor.n_blades, n })
     }

@@ -9,8 +9,10 @@ mod checks;
 mod exchange;
 mod flight;
 mod inflow;
+mod options;
 mod rotor;
 mod stand;
+mod trim;
 mod vortex;
 mod wake;
 
@@ -24,7 +26,9 @@ fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
     flight::register(m)?;
     exchange::register(m)?;
     stand::register(m)?;
+    trim::register(m)?;
     inflow::register(m)?;
+    options::register(m)?;
     vortex::register(m)?;
     wake::register(m)?;
     Ok(())

@@ -1,12 +1,13 @@
 //! The isolated rotor on a stand: conversions only.
 
+use crate::aircraft::invalid;
 use crate::rotor::{motion, rotor_constants};
+use crate::trim::{self, PyTrimLayout, PyTrimProblem};
 use numpy::ndarray::Array;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
-use pyo3::exceptions::{PyArithmeticError, PyValueError};
+use pyo3::exceptions::PyArithmeticError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use std::f64::consts::TAU;
 use wakeflight::blade::aerodynamics::{Air, SectionAir};
 use wakeflight::blade::kinematics::ModalMotion;
 use wakeflight::blade::loads::{BladeInflow, HubMotion};
@@ -17,64 +18,15 @@ use wakeflight::integrate::stand::BladeStep;
 use wakeflight::rotor::circulation::BladeInstant;
 use wakeflight::rotor::data::RotorData;
 use wakeflight::rotor::hub::Rotor;
-use wakeflight::rotor::stand::{ControlEquation, Stand, StandInflow, StandProblem};
+use wakeflight::rotor::stand::Stand;
 use wakeflight::rotor::swashplate::{MovingPitch, PitchHarmonic, Rigging};
-
-fn invalid(error: impl std::fmt::Display) -> PyErr {
-    PyValueError::new_err(error.to_string())
-}
-
-fn equation(name: &str, value: f64) -> PyResult<ControlEquation> {
-    Ok(match name {
-        "collective" => ControlEquation::Collective(value),
-        "lateral_cyclic" => ControlEquation::LateralCyclic(value),
-        "longitudinal_cyclic" => ControlEquation::LongitudinalCyclic(value),
-        "thrust" => ControlEquation::Thrust(value),
-        "torque" => ControlEquation::Torque(value),
-        "beta_1c" => ControlEquation::FlapCosine(value),
-        "beta_1s" => ControlEquation::FlapSine(value),
-        "hub_roll" => ControlEquation::HubRoll(value),
-        "hub_pitch" => ControlEquation::HubPitch(value),
-        other => return Err(invalid(format!("control equation '{other}' is unknown"))),
-    })
-}
-
-/// A steady condition on the stand; see `wakeflight.tunnel`.
-#[pyclass(name = "StandProblem", frozen)]
-pub struct PyStandProblem(StandProblem);
-
-#[pymethods]
-impl PyStandProblem {
-    /// Three `controls` (name, value in SI), `higher` (order, cosine, sine [rad]); inflow (n_azimuths, n_stations) or None.
-    #[new]
-    #[allow(clippy::too_many_arguments, reason = "the fields of the problem")]
-    fn new(
-        velocity: [f64; 3],
-        rates: [f64; 3],
-        controls: [(String, f64); 3],
-        higher: Vec<(usize, f64, f64)>,
-        n_harmonics: usize,
-        n_azimuths: usize,
-        inflow: Option<PyReadonlyArray2<f64>>,
-    ) -> PyResult<Self> {
-        let [a, b, c] = controls;
-        let controls = [equation(&a.0, a.1)?, equation(&b.0, b.1)?, equation(&c.0, c.1)?];
-        let higher =
-            higher.into_iter().map(|(order, cosine, sine)| PitchHarmonic { order, cosine, sine }).collect();
-        let inflow = match inflow {
-            None => StandInflow::Dynamic,
-            Some(map) => StandInflow::Map(map.as_array().iter().copied().collect()),
-        };
-        Ok(Self(StandProblem { velocity, rates, controls, higher, n_harmonics, n_azimuths, inflow }))
-    }
-}
+use wakeflight::trim::residual::Trim;
 
 /// Rotor of one condition on the stand. Names of the methods it shares with `Aircraft` are the same; y is hub velocity
 /// and rates (6), a stick is theta_0, theta_1c, theta_1s.
 #[pyclass(name = "Stand", frozen)]
 pub struct PyStand {
     pub(crate) inner: Stand,
-    pub(crate) higher: Vec<PitchHarmonic>,
 }
 
 pub(crate) fn hub_state(y: &[f64]) -> PyResult<([f64; 3], [f64; 3])> {
@@ -88,7 +40,7 @@ pub(crate) fn hub_state(y: &[f64]) -> PyResult<([f64; 3], [f64; 3])> {
 impl PyStand {
     /// From the JSON of the rotor data, air, weight, discretisation; `free_wake` switches the tip loss off, `thin_sections`
     /// (with or without the Prandtl-Glauert factor) makes the blade a Weissinger one, `windmill` has dynamic inflow take the
-    /// windmill brake state in descent.
+    /// windmill brake state in descent; velocity [m/s] and rates [rad/s] of the hub through the air, hub axes.
     #[new]
     #[allow(clippy::too_many_arguments, reason = "the fields of the discretisation")]
     fn new(
@@ -105,6 +57,8 @@ impl PyStand {
         higher: Vec<(usize, f64, f64)>,
         blade_model: &str,
         windmill: bool,
+        velocity: [f64; 3],
+        rates: [f64; 3],
     ) -> PyResult<Self> {
         let data: RotorData = serde_json::from_str(data_json).map_err(invalid)?;
         let discretisation = Discretisation { n_elements, n_modes, n_gauss, n_stations, reference_pitch };
@@ -118,95 +72,69 @@ impl PyStand {
             "weissinger-incompressible" => Some(SectionLift::Tangency { prandtl_glauert: false }),
             other => return Err(invalid(format!("blade_model = {other}: not a model of the blade"))),
         };
-        rotor.thin = lift.map(|lift| ThinSection::of(&data.airfoil, lift));
+        rotor.thin = lift.map(|lift| ThinSection { lift });
         let air = Air { density, speed_of_sound };
         let mass_flow = if windmill { MassFlow::WindmillBrake } else { MassFlow::Momentum };
         let pitt_peters = PittPeters { mass_flow, ..PittPeters::default() };
-        let inner = Stand { rotor, air, gravity, pitt_peters };
         let higher =
             higher.into_iter().map(|(order, cosine, sine)| PitchHarmonic { order, cosine, sine }).collect();
-        Ok(Self { inner, higher })
+        Ok(Self { inner: Stand { rotor, air, gravity, pitt_peters, higher, velocity, rates } })
     }
 
     /// Constants of the rotor that the coupling and the results need.
     fn rotor<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let d = rotor_constants(py, &self.inner.rotor)?;
-        d.set_item("solidity", self.inner.solidity())?;
+        d.set_item("solidity", self.inner.rotor.solidity())?;
         Ok(d)
     }
 
-    /// Names of the equations.
-    fn trim_equations(&self, problem: &PyStandProblem) -> Vec<String> {
-        self.inner.equations(&problem.0)
+    /// Layout of the unknowns and equations of a trim.
+    fn trim_layout(&self, problem: &PyTrimProblem) -> PyResult<PyTrimLayout> {
+        trim::layout(&self.inner, problem)
     }
 
-    /// Index of the first unknown of every mode (and one past the last), and of the inflow.
-    fn trim_layout(&self, problem: &PyStandProblem) -> (Vec<usize>, usize) {
-        let l = self.inner.layout(&problem.0);
-        let h = l.harmonics();
-        ((0..=h.n_modes).map(|i| h.mode(i)).collect(), l.inflow())
-    }
-
-    /// Residual of the equations.
+    /// Residual of the trim equations.
     fn trim_residual<'py>(
         &self,
         py: Python<'py>,
-        problem: &PyStandProblem,
+        problem: &PyTrimProblem,
         x: PyReadonlyArray1<f64>,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        let x = self.unknowns(problem, &x)?;
-        let mut f = vec![0.0; x.len()];
-        py.detach(|| self.inner.residual(&problem.0, &x, &mut f));
-        Ok(f.into_pyarray(py))
+        trim::residual(py, &self.inner, problem, &x)
     }
 
-    /// Exact Jacobian (n, n).
+    /// Exact Jacobian of the trim equations (n, n).
     fn trim_jacobian<'py>(
         &self,
         py: Python<'py>,
-        problem: &PyStandProblem,
+        problem: &PyTrimProblem,
         x: PyReadonlyArray1<f64>,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let x = self.unknowns(problem, &x)?;
-        let n = x.len();
-        let mut j = vec![0.0; n * n];
-        py.detach(|| self.inner.jacobian(&problem.0, &x, &mut j));
-        Ok(Array::from_shape_vec((n, n), j).map_err(invalid)?.into_pyarray(py))
-    }
-
-    /// Hub motion of the problem (6): what the exchange calls the state. The motion is steady: there is no rate.
-    fn trim_state<'py>(
-        &self,
-        py: Python<'py>,
-        problem: &PyStandProblem,
-        x: PyReadonlyArray1<f64>,
-        t: f64,
-    ) -> (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>) {
-        let _ = (x, t);
-        let y: Vec<f64> = problem.0.velocity.iter().chain(&problem.0.rates).copied().collect();
-        (y.into_pyarray(py), vec![0.0; 6].into_pyarray(py))
+        trim::jacobian(py, &self.inner, problem, &x)
     }
 
     /// Modal coordinates and rates (n_azimuths, n_modes) of the periodic motion.
     fn trim_motion<'py>(
         &self,
         py: Python<'py>,
-        problem: &PyStandProblem,
+        problem: &PyTrimProblem,
         x: PyReadonlyArray1<f64>,
         n_azimuths: usize,
-    ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>)> {
-        let x = self.unknowns(problem, &x)?;
-        let h = self.inner.layout(&problem.0).harmonics();
-        let n = h.n_modes;
-        let (mut q, mut q_dot) = (Vec::new(), Vec::new());
-        for k in 0..n_azimuths {
-            let psi = TAU * k as f64 / n_azimuths as f64;
-            let m = h.motion(&x, psi, self.inner.rotor.omega);
-            q.extend_from_slice(&m.q[..n]);
-            q_dot.extend_from_slice(&m.q_dot[..n]);
-        }
-        let shape = |v| Array::from_shape_vec((n_azimuths, n), v).map_err(invalid);
-        Ok((shape(q)?.into_pyarray(py), shape(q_dot)?.into_pyarray(py)))
+    ) -> PyResult<trim::Motion<'py>> {
+        trim::motion(py, &self.inner, problem, &x, n_azimuths)
+    }
+
+    /// Hub motion (6): what the exchange calls the state. The motion is steady: there is no rate.
+    fn trim_state<'py>(
+        &self,
+        py: Python<'py>,
+        problem: &PyTrimProblem,
+        x: PyReadonlyArray1<f64>,
+        t: f64,
+    ) -> (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>) {
+        let _ = (problem, x, t);
+        let y = [self.inner.velocity, self.inner.rates].concat();
+        (y.into_pyarray(py), vec![0.0; 6].into_pyarray(py))
     }
 
     /// Hub velocity [m/s] and rates [rad/s] of y.
@@ -247,7 +175,7 @@ impl PyStand {
         let blade = BladeInstant {
             psi,
             modal: motion(q.as_slice()?.iter().copied(), q_dot.as_slice()?.iter().copied()),
-            control: self.inner.pitch(stick, &self.higher, psi),
+            control: self.inner.pitch(stick, psi),
         };
         let lambda = inflow.as_slice()?;
         let (mut gamma, mut slope) = (vec![0.0; lambda.len()], vec![0.0; lambda.len()]);
@@ -260,12 +188,13 @@ impl PyStand {
     fn passages<'py>(
         &self,
         py: Python<'py>,
-        problem: &PyStandProblem,
+        problem: &PyTrimProblem,
         x: PyReadonlyArray1<f64>,
         psi: PyReadonlyArray1<f64>,
         inflow: Option<PyReadonlyArray2<f64>>,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let x = self.unknowns(problem, &x)?;
+        let trim = Trim::new(&self.inner, &problem.0).map_err(invalid)?;
+        let x = trim.checked(x.as_slice()?).map_err(invalid)?;
         let stand = &self.inner;
         let psi = psi.as_slice()?;
         let n = stand.rotor.blade.stations.len();
@@ -274,17 +203,19 @@ impl PyStand {
         if held.as_ref().is_some_and(|map| map.len() != psi.len() * width) || !self.fits(width) {
             return Err(invalid(format!("inflow must have the shape ({}, {n})", psi.len())));
         }
-        if held.is_none() && matches!(problem.0.inflow, StandInflow::Map(_)) {
+        if held.is_none() && !problem.0.is_dynamic() {
             return Err(invalid("inflow is needed: the problem has none of its own"));
         }
-        let i = stand.layout(&problem.0).inflow();
-        let hub = stand.hub(problem.0.velocity, problem.0.rates);
+        let head = trim.layout.head(x);
+        let [theta_0, theta_1c, theta_1s, _] = head.controls;
+        let hub = stand.hub(stand.velocity, stand.rates);
         let passages = psi.iter().enumerate().map(|(row, &azimuth)| {
             let given = match &held {
                 Some(map) => stand.rotor.held_inflow(&map[row * width..(row + 1) * width]),
-                None => BladeInflow::Disk([x[i], x[i + 1], x[i + 2]]),
+                None => BladeInflow::Disk(head.inflow),
             };
-            (stand.instant(&problem.0, &x, azimuth), given)
+            let control = stand.pitch([theta_0, theta_1c, theta_1s], azimuth);
+            (BladeInstant { psi: azimuth, modal: trim.motion(x, azimuth), control }, given)
         });
         self.loads(py, &hub, passages)
     }
@@ -307,7 +238,7 @@ impl PyStand {
         let motions = self.motions(&motion, psi.len())?;
         let map = self.rows_of_inflow(&inflow, psi.len())?;
         let width = self.inner.rotor.inflow_width();
-        let pitch = MovingPitch { controls, rates: control_rates, higher: &self.higher };
+        let pitch = MovingPitch { controls, rates: control_rates, higher: &self.inner.higher };
         let passages = psi.iter().zip(motions).enumerate().map(|(row, (&psi, modal))| {
             let control = pitch.at(0.0, psi, self.inner.rotor.omega).into();
             let given = self.inner.rotor.held_inflow(&map[row * width..(row + 1) * width]);
@@ -336,7 +267,7 @@ impl PyStand {
         let motions = self.motions(&motion, psi.len())?;
         let map = self.rows_of_inflow(&inflow, psi.len())?;
         let width = self.inner.rotor.inflow_width();
-        let pitch = MovingPitch { controls, rates: control_rates, higher: &self.higher };
+        let pitch = MovingPitch { controls, rates: control_rates, higher: &self.inner.higher };
         let advanced: Vec<ModalMotion<f64>> = py
             .detach(|| {
                 let each = psi.iter().zip(motions).zip(map.chunks_exact(width));
@@ -429,23 +360,9 @@ impl PyStand {
         let n = self.inner.rotor.blade.stations.len();
         width == n || (width == 2 * n && self.inner.rotor.thin.is_some())
     }
-
-    /// The unknowns, of the right number.
-    fn unknowns(&self, problem: &PyStandProblem, x: &PyReadonlyArray1<f64>) -> PyResult<Vec<f64>> {
-        let n = self.inner.layout(&problem.0).len();
-        if let StandInflow::Map(map) = &problem.0.inflow {
-            let width = map.len() / problem.0.n_azimuths;
-            if !self.fits(width) || map.len() != width * problem.0.n_azimuths {
-                return Err(invalid(format!("inflow map has {} values for each azimuth", width)));
-            }
-        }
-        let x = x.as_slice()?.to_vec();
-        if x.len() != n { Err(invalid(format!("{} unknowns, {n} needed", x.len()))) } else { Ok(x) }
-    }
 }
 
 /// Registers the classes of this file.
 pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
-    m.add_class::<PyStand>()?;
-    m.add_class::<PyStandProblem>()
+    m.add_class::<PyStand>()
 }

@@ -1,13 +1,12 @@
 //! Free wake: conversions only.
 
+use crate::options::{marching_options, relaxation_options, wake_options};
 use numpy::ndarray::Array;
 use numpy::{Element, IntoPyArray, PyArray2, PyArray3, PyArray4, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::{PyArithmeticError, PyValueError};
 use pyo3::prelude::*;
 use wakeflight::wake::lifting_surface::{ControlLine, wing_circulation as wing_circulation_of};
-use wakeflight::wake::{
-    self, BladeState, HubMotion, Induction, LinearField, StepReport, WakeError, WakeOptions,
-};
+use wakeflight::wake::{self, BladeState, HubMotion, Induction, LinearField, StepReport, WakeError};
 
 /// Input at fault: ValueError; numerical failure: ArithmeticError.
 pub(crate) fn py_error(error: WakeError) -> PyErr {
@@ -16,10 +15,6 @@ pub(crate) fn py_error(error: WakeError) -> PyErr {
     } else {
         PyValueError::new_err(error.to_string())
     }
-}
-
-pub(crate) fn parse_options(options_json: &str) -> PyResult<WakeOptions> {
-    serde_json::from_str(options_json).map_err(|e| PyValueError::new_err(format!("wake options: {e}")))
 }
 
 /// Copy of an array of any memory layout in row-major order.
@@ -78,7 +73,7 @@ pub(crate) fn marched_lattice<'py>(
     wake: &wake::TimeMarchingWake,
 ) -> PyResult<Bound<'py, PyArray4<f64>>> {
     let options = wake.options();
-    lattice(py, wake.position(), options.n_blades, options.trailers_per_blade())
+    lattice(py, wake.position(), options.rotor.n_blades, options.trailers_per_blade())
 }
 
 /// Circulation of the markers of the tip trailers of a marched wake (n_blades, n_segments + 1) [m2/s].
@@ -89,7 +84,7 @@ pub(crate) fn tip_circulation<'py>(
     let options = wake.options();
     let length = options.n_segments() + 1;
     let tips = wake::tip_rows(wake.marker_circulation(), options.trailers_per_blade(), length);
-    matrix(py, tips, options.n_blades)
+    matrix(py, tips, options.rotor.n_blades)
 }
 
 /// Core radii of the segments of the tip trailers of a marched wake (n_blades, n_segments) [m].
@@ -99,7 +94,7 @@ pub(crate) fn tip_core<'py>(
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
     let options = wake.options();
     let tips = wake::tip_rows(&wake.core_radius(), options.trailers_per_blade(), options.n_segments());
-    matrix(py, tips, options.n_blades)
+    matrix(py, tips, options.rotor.n_blades)
 }
 
 /// Matrix N (n_stations, n_stations) [s/m2]: inflow of the near wake of the own blade, lambda_i = sum_j N_ij Gamma_j.
@@ -113,7 +108,7 @@ fn near_wake_matrix<'py>(
     flap: f64,
     lead: f64,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    let options = parse_options(options_json)?;
+    let options = wake_options(options_json)?;
     let hub = HubMotion { velocity: hub_velocity, rates: hub_rates };
     let values = py
         .detach(|| wake::near_wake_matrix(&options, &hub, &BladeState { psi, flap, lead }))
@@ -158,12 +153,12 @@ impl RelaxationWake {
         mean_inflow: f64,
         prescribed: Option<([f64; 3], [[f64; 3]; 3])>,
     ) -> PyResult<Self> {
-        let options = parse_options(options_json)?;
+        let (options, own) = (wake_options(options_json)?, relaxation_options(options_json)?);
         let hub = HubMotion { velocity: hub_velocity, rates: hub_rates };
         let inner = match prescribed {
-            None => wake::RelaxationWake::new(options, hub, mean_inflow),
+            None => wake::RelaxationWake::new(options, own, hub, mean_inflow),
             Some((at_origin, gradient)) => LinearField::new(at_origin, gradient).and_then(|field| {
-                wake::RelaxationWake::with_field(options, hub, mean_inflow, Induction::Linear(field))
+                wake::RelaxationWake::with_field(options, own, hub, mean_inflow, Induction::Linear(field))
             }),
         };
         Ok(Self { inner: inner.map_err(py_error)? })
@@ -202,7 +197,7 @@ impl RelaxationWake {
     /// Inflow at the stations without that of the own near wake (n_azimuths, n_stations).
     fn inflow_far<'py>(&mut self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let values = py.detach(|| self.inner.inflow_far());
-        matrix(py, values, self.inner.options().steps_per_revolution)
+        matrix(py, values, self.inner.options().steps_per_revolution())
     }
 
     /// Velocity (n, 3) [m/s] induced at points (n, 3) [m], blade 1 at the azimuth of row `azimuth_index`.
@@ -219,13 +214,13 @@ impl RelaxationWake {
 
     /// Markers of the tip trailer (n_azimuths, n_segments + 1, 3) [m].
     fn position<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
-        vectors(py, &self.inner.tip_position(), self.inner.options().steps_per_revolution)
+        vectors(py, &self.inner.tip_position(), self.inner.options().steps_per_revolution())
     }
 
     /// Markers of every trailer, root to tip (n_azimuths, n_trailers, n_segments + 1, 3) [m].
     fn lattice<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray4<f64>>> {
         let options = self.inner.options();
-        lattice(py, self.inner.position(), options.steps_per_revolution, options.trailers_per_blade())
+        lattice(py, self.inner.position(), options.steps_per_revolution(), options.trailers_per_blade())
     }
 
     /// Core radii of the segments of the tip trailer (n_azimuths, n_segments) [m].
@@ -233,7 +228,7 @@ impl RelaxationWake {
         let options = self.inner.options();
         let cores =
             wake::tip_rows(&self.inner.core_radius(), options.trailers_per_blade(), options.n_segments());
-        matrix(py, cores, options.steps_per_revolution)
+        matrix(py, cores, options.steps_per_revolution())
     }
 
     /// Circulation of the tip trailer released at every azimuth (n_azimuths) [m2/s].
@@ -244,7 +239,7 @@ impl RelaxationWake {
 
     /// Circulation of the trailers released at every azimuth, root to tip (n_azimuths, n_trailers) [m2/s].
     fn released_circulation<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        matrix(py, self.inner.released_circulation().to_vec(), self.inner.options().steps_per_revolution)
+        matrix(py, self.inner.released_circulation().to_vec(), self.inner.options().steps_per_revolution())
     }
 
     /// Radii of the stations (n_stations) [m].
@@ -287,19 +282,16 @@ pub(crate) struct TimeMarchingWake {
 
 #[pymethods]
 impl TimeMarchingWake {
-    /// Starts from a periodic wake with blade 1 at row `azimuth_index`, with the scheme of `options_json`.
+    /// Starts from a periodic wake with blade 1 at row `azimuth_index`, with the marching options of `options_json`.
     #[staticmethod]
     fn from_relaxation(
         relaxation: &RelaxationWake,
         azimuth_index: usize,
         options_json: &str,
     ) -> PyResult<Self> {
-        let options = parse_options(options_json)?;
-        let mut inner =
-            wake::TimeMarchingWake::from_relaxation(&relaxation.inner, azimuth_index).map_err(py_error)?;
-        inner.set_scheme(options.scheme, options.predictor, options.time_filter).map_err(py_error)?;
-        inner.set_evaluation(options.evaluation);
-        Ok(Self { inner })
+        let own = marching_options(options_json, relaxation.inner.options())?;
+        let inner = wake::TimeMarchingWake::from_relaxation(&relaxation.inner, azimuth_index, own);
+        Ok(Self { inner: inner.map_err(py_error)? })
     }
 
     /// One step of azimuth to the hub motion, the blades (n_blades, 3: psi, flap, lead) [rad] and the bound circulation
@@ -326,7 +318,7 @@ impl TimeMarchingWake {
     /// Inflow at the stations without that of the own near wake (n_blades, n_stations).
     fn inflow_far<'py>(&mut self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let values = py.detach(|| self.inner.inflow_far());
-        matrix(py, values, self.inner.options().n_blades)
+        matrix(py, values, self.inner.options().rotor.n_blades)
     }
 
     /// Velocity (n, 3) [m/s] induced at points (n, 3) [m].
@@ -342,7 +334,7 @@ impl TimeMarchingWake {
 
     /// Markers of the tip trailers (n_blades, n_segments + 1, 3) [m].
     fn position<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
-        vectors(py, &self.inner.tip_position(), self.inner.options().n_blades)
+        vectors(py, &self.inner.tip_position(), self.inner.options().rotor.n_blades)
     }
 
     /// Markers of every trailer, root to tip (n_blades, n_trailers, n_segments + 1, 3) [m].

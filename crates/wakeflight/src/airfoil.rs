@@ -1,5 +1,7 @@
 //! Section coefficients by angle of attack and Mach number.
 
+pub mod span;
+
 use crate::numerics::scalar::{OfTwo, Real};
 use crate::numerics::tables::Grid;
 use serde::Deserialize;
@@ -33,12 +35,22 @@ pub enum AirfoilError {
         /// Length of the second axis.
         columns: usize,
     },
+    /// Sections along the span without a station or a table each.
+    #[error(
+        "airfoil: {stations} stations and {tables} section tables; one table is needed at each of one or more stations"
+    )]
+    Sections {
+        /// Number of stations.
+        stations: usize,
+        /// Number of tables.
+        tables: usize,
+    },
     /// An axis is not strictly ascending.
     #[error("airfoil table {table}: {axis} is not strictly ascending at entry {index}")]
     NotAscending {
         /// Which table.
         table: &'static str,
-        /// Angle of attack or Mach number.
+        /// Angle of attack, Mach number or station.
         axis: &'static str,
         /// Entry that is not above the one before it.
         index: usize,
@@ -120,6 +132,9 @@ impl Axis {
     }
 }
 
+/// Mach number at which the angle without lift is taken.
+const LOW_MACH: f64 = 0.3;
+
 /// One airfoil, its three tables joined on the union of their axes.
 ///
 /// Joining changes nothing: each table is bilinear on every cell of the union.
@@ -130,6 +145,8 @@ pub struct Airfoil {
     mach: Axis,
     // (cl, cd, cm) at alpha-major nodes
     nodes: Vec<[f64; 3]>,
+    /// Angle of attack without lift at a low Mach number [rad].
+    zero_lift: f64,
 }
 
 impl TryFrom<AirfoilTables> for Airfoil {
@@ -205,7 +222,25 @@ impl Airfoil {
                 nodes.push([cl.at(a, m), cd.at(a, m) + cd_increment, cm.at(a, m)]);
             }
         }
-        Ok(Self { alpha: Axis::new(alpha), mach: Axis::new(mach), nodes })
+        Ok(Self::of_nodes(alpha, mach, nodes))
+    }
+
+    /// From its axes and the coefficients at their nodes, angle by angle.
+    fn of_nodes(alpha: Vec<f64>, mach: Vec<f64>, nodes: Vec<[f64; 3]>) -> Self {
+        let mut airfoil = Self { alpha: Axis::new(alpha), mach: Axis::new(mach), nodes, zero_lift: 0.0 };
+        let cl = |alpha: f64| airfoil.coefficients::<f64>(alpha, LOW_MACH).0;
+        let (mut low, mut high) = (-15f64.to_radians(), 15f64.to_radians());
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            if cl(middle) < 0.0 { low = middle } else { high = middle }
+        }
+        airfoil.zero_lift = 0.5 * (low + high);
+        airfoil
+    }
+
+    /// Angle of attack without lift at a low Mach number [rad], within 15 deg.
+    pub fn zero_lift(&self) -> f64 {
+        self.zero_lift
     }
 
     /// Lift, drag (increment included) and quarter-chord moment coefficients, bilinear.
@@ -259,7 +294,7 @@ mod tests {
     use crate::numerics::scalar::Dual;
 
     /// Table of `f` (angle [rad], Mach number) at angles `x` [deg] and Mach numbers `y`.
-    fn grid(x: &[f64], y: &[f64], f: fn(f64, f64) -> f64) -> Grid {
+    pub(super) fn grid(x: &[f64], y: &[f64], f: fn(f64, f64) -> f64) -> Grid {
         Grid {
             x: x.iter().map(|d| d.to_radians()).collect(),
             y: y.to_vec(),
@@ -267,7 +302,8 @@ mod tests {
         }
     }
 
-    fn tables() -> AirfoilTables {
+    /// Tables with different, uneven axes.
+    pub(super) fn tables() -> AirfoilTables {
         // different, uneven axes: what a table of measured data looks like
         AirfoilTables {
             cl: grid(&[-180., -172.5, -49., -3., 0.5, 12., 90., 180.], &[0., 0.3, 0.75, 1.], |a, m| {

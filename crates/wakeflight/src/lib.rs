@@ -18,6 +18,8 @@ pub mod rotor;
 
 pub mod airframe;
 
+pub mod trim;
+
 pub mod aircraft;
 
 pub mod integrate;

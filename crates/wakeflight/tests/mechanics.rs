@@ -3,6 +3,7 @@
 mod beam_support;
 
 use std::f64::consts::PI;
+use wakeflight::airfoil::span::StationAirfoils;
 use wakeflight::airfoil::{Airfoil, AirfoilTables};
 use wakeflight::blade::MAX_MODES;
 use wakeflight::blade::aerodynamics::Air;
@@ -67,9 +68,9 @@ fn vacuum_loads(
     m: &ModalMotion<f64>,
     pitch: &PitchMotion<f64>,
 ) -> BladeLoads<f64> {
-    let airfoil = airfoil();
+    let airfoils = StationAirfoils::uniform(airfoil(), blade.stations.len());
     let air = Air { density: 1.0, speed_of_sound: 340.0 };
-    let environment = BladeEnvironment { airfoil: &airfoil, air, rotor_speed: OMEGA };
+    let environment = BladeEnvironment { airfoils: &airfoils, air, rotor_speed: OMEGA };
     blade.loads(&environment, hub, psi, m, pitch, &BladeInflow::Vacuum)
 }
 
@@ -276,9 +277,9 @@ fn gravity_alone_in_free_fall_leaves_the_blade_as_without_gravity() {
 fn frequency_error(n_gauss: usize) -> f64 {
     type D = Dual<N>;
     let blade = blade_with(&beam_support::uh60a(), n_gauss);
-    let airfoil = airfoil();
+    let airfoils = StationAirfoils::uniform(airfoil(), blade.stations.len());
     let air = Air { density: 1.0, speed_of_sound: 340.0 };
-    let environment = BladeEnvironment { airfoil: &airfoil, air, rotor_speed: OMEGA };
+    let environment = BladeEnvironment { airfoils: &airfoils, air, rotor_speed: OMEGA };
     let hub: HubMotion<D> = still_hub().constant();
     let c = D::cst;
     let pitch = PitchMotion { theta: c(0.3), theta_dot: c(0.0), theta_ddot: c(0.0) };

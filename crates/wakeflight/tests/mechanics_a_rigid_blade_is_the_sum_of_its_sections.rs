@@ -10,12 +10,13 @@ use wakeflight::blade::section::BladeProperties;
 
 const STICK: [f64; 4] = [0.13, 0.14, 0.12, 0.06];
 
-/// Rigid, with precone, pitch-flap coupling and a centre of gravity off the axis.
+/// Rigid, with precone, pitch-flap coupling, hinge springs and a centre of gravity off the axis.
 fn properties() -> BladeProperties {
     let mut properties = uh60a();
     properties.rigid = true;
     properties.precone = 0.05;
     properties.delta3 = 0.2;
+    (properties.flap_spring, properties.lag_spring) = (4e4, 3e4);
     for (i, x) in properties.structure.x_cg.iter_mut().enumerate() {
         *x += 0.02 - 0.05 * (i % 3) as f64 / 3.0;
     }

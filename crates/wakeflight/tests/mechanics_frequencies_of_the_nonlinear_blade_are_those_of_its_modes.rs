@@ -5,6 +5,7 @@ mod mechanics_support;
 
 use mechanics_support::beam_support::uh60a;
 use mechanics_support::*;
+use wakeflight::airfoil::span::StationAirfoils;
 use wakeflight::blade::MAX_MODES;
 use wakeflight::blade::kinematics::ModalMotion;
 use wakeflight::blade::loads::{BladeEnvironment, BladeInflow};
@@ -24,8 +25,8 @@ fn linearised(blade: &Blade) -> ([f64; N], [[f64; 15]; N]) {
         )
     };
     let modal = ModalMotion { q: variables(0), q_dot: variables(5), q_ddot: variables(10) };
-    let airfoil = smooth_airfoil(6.0, 0.0, 0.01, 0.0);
-    let environment = BladeEnvironment { airfoil: &airfoil, air: AIR, rotor_speed: OMEGA };
+    let airfoils = StationAirfoils::uniform(smooth_airfoil(6.0, 0.0, 0.01, 0.0), blade.stations.len());
+    let environment = BladeEnvironment { airfoils: &airfoils, air: AIR, rotor_speed: OMEGA };
     let loads = blade.loads(
         &environment,
         &hub_at_rest(),

@@ -4,6 +4,7 @@
 mod mechanics_support;
 
 use mechanics_support::*;
+use wakeflight::airfoil::span::StationAirfoils;
 use wakeflight::blade::MAX_MODES;
 use wakeflight::blade::kinematics::{ModalMotion, PitchMotion};
 use wakeflight::blade::loads::{BladeEnvironment, BladeInflow, HubMotion};
@@ -103,8 +104,8 @@ fn errors(blade: &Blade, g: f64, path: &Path, t: f64) -> [f64; 3] {
     let (s, c) = (OMEGA * t + 0.5).sin_cos();
     let control =
         PitchMotion { theta: pitch(t), theta_dot: 0.15 * OMEGA * c, theta_ddot: -0.15 * OMEGA * OMEGA * s };
-    let airfoil = smooth_airfoil(6.0, 0.0, 0.01, 0.0);
-    let environment = BladeEnvironment { airfoil: &airfoil, air: AIR, rotor_speed: OMEGA };
+    let airfoils = StationAirfoils::uniform(smooth_airfoil(6.0, 0.0, 0.01, 0.0), blade.stations.len());
+    let environment = BladeEnvironment { airfoils: &airfoils, air: AIR, rotor_speed: OMEGA };
     let found = blade.loads(&environment, &hub, OMEGA * t, &modal, &control, &BladeInflow::Vacuum);
 
     // Q_i = -(d/dt dT/dq_dot - dT/dq) - dV/dq

@@ -5,6 +5,7 @@ mod mechanics_support;
 use mechanics_support::beam_support::uh60a;
 use mechanics_support::*;
 use wakeflight::aircraft::model::{Aircraft, HeldInflow, Inputs};
+use wakeflight::airfoil::span::SpanSections;
 
 const STICK: [f64; 4] = [0.13, 0.14, 0.12, 0.06];
 
@@ -60,15 +61,34 @@ fn cases(smooth: bool) -> Vec<(Aircraft, Inputs, &'static str)> {
     let airfoil =
         if smooth { smooth_airfoil(5.7, 0.4, 0.01, -0.02) } else { data_files::airfoil("sc1095", 0.002) };
     let data = aircraft_data(uh60a(), airfoil);
+    let mut general = data.clone();
+    let mut tip = smooth_airfoil(6.3, 0.1, 0.02, 0.03);
+    if !smooth {
+        tip = data_files::airfoil("naca0012", 0.001);
+    }
+    let inner =
+        if smooth { smooth_airfoil(5.7, 0.4, 0.01, -0.02) } else { data_files::airfoil("sc1095", 0.002) };
+    general.rotor.airfoil = SpanSections::new(vec![2.0, 6.5], false, vec![inner, tip]).unwrap();
+    (general.rotor.blade.flap_spring, general.rotor.blade.lag_spring) = (6e4, 9e4);
+    let general = build(&general, true, 9.80665);
     let (dynamic, held) = (build(&data, false, 9.80665), build(&data, true, 9.80665));
     let mut random = Random::new(8);
     let n = held.rotor.n_blades * held.rotor.blade.stations.len();
-    let inflow = (0..n).map(|_| 0.03 + 0.02 * random.next()).collect();
+    let inflow: Vec<f64> = (0..n).map(|_| 0.03 + 0.02 * random.next()).collect();
     let mut moving = inputs(STICK, HeldInflow::Dynamic);
     moving.stick_rate = [0.2, -0.1, 0.15, 0.05];
     vec![
         (dynamic, moving, "dynamic inflow, sticks moving"),
-        (held.clone(), inputs(STICK, HeldInflow::Stations { inflow, mean: 0.03 }), "held station inflow"),
+        (
+            held.clone(),
+            inputs(STICK, HeldInflow::Stations { inflow: inflow.clone(), mean: 0.03 }),
+            "held station inflow",
+        ),
+        (
+            general,
+            inputs(STICK, HeldInflow::Stations { inflow, mean: 0.03 }),
+            "hinge springs, two sections along the span",
+        ),
         (held, inputs(STICK, HeldInflow::Vacuum), "vacuum"),
     ]
 }

@@ -7,6 +7,7 @@ use mechanics_support::beam_support::uniform;
 use mechanics_support::*;
 use nalgebra::{Complex, SMatrix, SVector};
 use std::f64::consts::TAU;
+use wakeflight::airfoil::span::StationAirfoils;
 use wakeflight::blade::MAX_MODES;
 use wakeflight::blade::aerodynamics::Air;
 use wakeflight::blade::kinematics::{ModalMotion, PitchMotion};
@@ -56,9 +57,9 @@ impl Case {
     fn flapping(&self) -> [f64; 3] {
         type D = Dual<3>;
         let blade = self.blade();
-        let airfoil = smooth_airfoil(TAU, 0.0, 0.0, 0.0);
+        let airfoils = StationAirfoils::uniform(smooth_airfoil(TAU, 0.0, 0.0, 0.0), blade.stations.len());
         let air = Air { density: self.density(), speed_of_sound: 340.0 };
-        let environment = BladeEnvironment { airfoil: &airfoil, air, rotor_speed: OMEGA };
+        let environment = BladeEnvironment { airfoils: &airfoils, air, rotor_speed: OMEGA };
         let mut hub = hub_at_rest::<D>();
         hub.velocity = Vec3::cst([-self.mu * OMEGA * RADIUS, 0.0, 0.0]);
         let flap = blade.flap_mode;

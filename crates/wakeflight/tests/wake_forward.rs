@@ -1,9 +1,12 @@
 //! Free wake in forward flight: time marching against relaxation, odd-even mode, frames.
 
 mod wake_cases;
+use std::f64::consts::TAU;
 use wake_cases::*;
 use wakeflight::wake::velocity_field::{FieldWork, RotorInstant, VortexSegments, Wanted, field_at};
-use wakeflight::wake::{HubMotion, Predictor, RelaxationWake, Scheme, TimeMarchingWake, WakeOptions};
+use wakeflight::wake::{
+    HubMotion, MarchingOptions, Predictor, RelaxationWake, Scheme, TimeMarchingWake, WakeOptions,
+};
 
 const CT: f64 = 0.00583;
 const MU: f64 = 0.185;
@@ -28,21 +31,19 @@ fn level(options: &WakeOptions, tolerance: f64) -> RelaxationWake {
 /// revolution over R, odd-even monitor of the last revolution.
 fn march(
     options: &WakeOptions,
+    own: MarchingOptions,
     revolutions: usize,
 ) -> (Vec<f64>, Vec<f64>, f64, f64, wakeflight::wake::geometry::BladeGrid) {
     let mut start = level(options, 1e-7);
     let reference = start.inflow_far();
-    let mut wake = TimeMarchingWake::from_relaxation(&start, 0).unwrap();
+    let mut wake = TimeMarchingWake::from_relaxation(&start, 0, own).unwrap();
     let (mut map, mut change, mut odd_even) = (Vec::new(), 0.0, 0.0);
     for turn in 0..revolutions {
         let before = wake.position().to_vec();
-        (map, odd_even) = revolution(&mut wake, level_hub(), CT, turn * options.steps_per_revolution);
+        (map, odd_even) = revolution(&mut wake, level_hub(), CT, turn * options.steps_per_revolution());
         change = distance(&before, wake.position());
     }
-    println!(
-        "{:?} {:?}: change per revolution {change}, odd-even {odd_even}",
-        options.scheme, options.predictor
-    );
+    println!("{:?} {:?}: change per revolution {change}, odd-even {odd_even}", own.scheme, own.predictor);
     (map, reference, change, odd_even, wake.grid().clone())
 }
 
@@ -57,8 +58,8 @@ fn verif_level_flight_inflow_is_that_of_momentum_theory_and_leans_aft() {
 
 #[test]
 fn verif_central_marching_reaches_the_relaxed_wake() {
-    let options = WakeOptions { scheme: Scheme::Pcc, ..level_options() };
-    let (map, reference, _, _, grid) = march(&options, 12);
+    let central = MarchingOptions { scheme: Scheme::Pcc, ..MarchingOptions::default() };
+    let (map, reference, _, _, grid) = march(&level_options(), central, 12);
     let difference = disk_rms(&grid, &difference(&map, &reference)) / harmonics(&grid, &reference)[0];
     println!("disk RMS of the difference over the mean {difference}");
     assert!(difference < 0.005);
@@ -66,7 +67,7 @@ fn verif_central_marching_reaches_the_relaxed_wake() {
 
 /// Backward scheme against relaxation: RMS of the difference of inflow and drift of its mean, over the mean.
 fn backward_difference(options: &WakeOptions, revolutions: usize) -> (f64, f64, f64) {
-    let (map, reference, change, _, grid) = march(options, revolutions);
+    let (map, reference, change, _, grid) = march(options, MarchingOptions::default(), revolutions);
     let mean = harmonics(&grid, &reference)[0];
     let rms = disk_rms(&grid, &difference(&map, &reference)) / mean;
     let drift = harmonics(&grid, &map)[0] / mean - 1.0;
@@ -85,7 +86,7 @@ fn verif_backward_marching_settles_near_the_relaxed_wake() {
 #[test]
 #[ignore = "half a minute: five degrees"]
 fn verif_backward_marching_nears_the_relaxed_wake_with_smaller_steps() {
-    let options = WakeOptions { core_radius: 0.05, steps_per_revolution: 72, ..level_options() };
+    let options = WakeOptions { core_radius: 0.05, azimuth_step: TAU / 72.0, ..level_options() };
     let (rms, drift, _) = backward_difference(&options, 12);
     assert!(rms < 0.10 && drift.abs() < 0.03);
 }
@@ -94,15 +95,10 @@ fn verif_backward_marching_nears_the_relaxed_wake_with_smaller_steps() {
 fn verif_odd_even_mode_grows_with_a_central_predictor_and_decays_with_a_filter() {
     // the operator of PC2B has the amplification factor -1 for every mode of age
     let case = |predictor, time_filter| {
-        let options = WakeOptions {
-            scheme: Scheme::Pc2b,
-            predictor,
-            time_filter,
-            turns: 3.0,
-            n_stations: 4,
-            ..level_options()
-        };
-        march(&options, 16)
+        let options = WakeOptions { turns: 3.0, n_stations: 5, ..level_options() };
+        let own =
+            MarchingOptions { scheme: Scheme::Pc2b, predictor, time_filter, ..MarchingOptions::default() };
+        march(&options, own, 16)
     };
     let (.., grown, _, _) = case(Predictor::Central, 0.0);
     let (.., neutral, _, _) = case(Predictor::Same, 0.0);
@@ -166,10 +162,9 @@ mod inertial {
     /// RMS distance over R of the two formulations after one revolution; `sense` multiplies the rates in inertial axes.
     fn discrepancy(steps: usize, ct: f64, sense: f64) -> f64 {
         let options = WakeOptions {
-            steps_per_revolution: steps,
-            scheme: Scheme::Pcc,
+            azimuth_step: TAU / steps as f64,
             turns: 2.0,
-            n_stations: 1,
+            n_stations: 5,
             core_radius: 0.05,
             ..options()
         };
@@ -179,8 +174,9 @@ mod inertial {
         let mut start = relaxation(&options, level, ct, inflow);
         // the same flight condition for both from the first step on
         let gamma = uniform_circulation(&options, ct);
-        start.set_state(turning, &vec![(0.0, 0.0); steps], &vec![gamma; steps]).unwrap();
-        let mut marched = TimeMarchingWake::from_relaxation(&start, 0).unwrap();
+        start.set_state(turning, &vec![(0.0, 0.0); steps], &vec![gamma; steps * options.n_stations]).unwrap();
+        let central = MarchingOptions { scheme: Scheme::Pcc, ..MarchingOptions::default() };
+        let mut marched = TimeMarchingWake::from_relaxation(&start, 0, central).unwrap();
 
         let inertial = HubMotion { rates: turning.rates.map(|w| sense * w), ..turning };
         let mut instant: RotorInstant = start.instant(0);
@@ -194,7 +190,7 @@ mod inertial {
             velocity
         };
         let dt = options.delta_psi() / OMEGA;
-        let circulation = vec![gamma; options.n_blades];
+        let circulation = vec![gamma; options.rotor.n_blades];
         for step in 1..=steps {
             marched.step(turning, &blades(&options, step), &circulation).unwrap();
 
@@ -212,7 +208,7 @@ mod inertial {
             let v_old: Vec<[f64; 3]> = at_markers(&instant).into_iter().map(|v| times(&c0, v)).collect();
             let mut next = marched.instant().clone();
             let place = |velocity: &dyn Fn(usize, usize) -> [f64; 3], next: &mut RotorInstant| {
-                for b in 0..options.n_blades {
+                for b in 0..options.rotor.n_blades {
                     let m = next.free.marker(b, 0);
                     for k in 0..n_k {
                         let v = velocity(m + k, m + k + 1);
@@ -268,7 +264,7 @@ fn verif_the_marched_sheet_stays_the_periodic_one() {
         ..level_options()
     };
     let start = relaxation(&options, level_hub(), CT, momentum_inflow(CT, MU, CLIMB));
-    let mut wake = TimeMarchingWake::from_relaxation(&start, 0).unwrap();
+    let mut wake = TimeMarchingWake::from_relaxation(&start, 0, MarchingOptions::default()).unwrap();
     revolution(&mut wake, level_hub(), CT, 0);
     revolution(&mut wake, level_hub(), CT, 36);
     let (marched, periodic) = (&wake.instant().sheet, &start.instant(72).sheet);

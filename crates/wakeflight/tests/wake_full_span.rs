@@ -10,8 +10,8 @@ use wakeflight::wake::velocity_field::{
     FieldWork, RotorInstant, VortexSegments, Wanted, field_at, point_velocity,
 };
 use wakeflight::wake::{
-    BladeState, Prescribed, RelaxationWake, Scheme, ShedWake, Summation, TimeMarchingWake, Trailers,
-    WakeOptions,
+    BladeState, MarchingOptions, Prescribed, RelaxationOptions, RelaxationWake, Scheme, ShedWake, Summation,
+    TimeMarchingWake, Trailers, WakeOptions, WakeRotor,
 };
 
 const CT: f64 = 0.006;
@@ -27,12 +27,12 @@ fn station_inflow(options: &WakeOptions, instant: &RotorInstant) -> Vec<f64> {
 /// Two blades, twenty degrees, eight trailers.
 fn full_span() -> WakeOptions {
     WakeOptions {
-        n_blades: 2,
+        rotor: WakeRotor { n_blades: 2, ..options().rotor },
         trailers: Trailers::FullSpan,
         n_stations: 14,
         n_trailers: 8,
         trailer_core: 0.04,
-        steps_per_revolution: 18,
+        azimuth_step: TAU / 18.0,
         turns: 3.0,
         ..options()
     }
@@ -46,13 +46,13 @@ fn rounded_circulation(options: &WakeOptions, ct: f64) -> Vec<f64> {
     // C_T = n_blades / (pi R^2 (omega R)^2) sum of omega r Gamma dr
     let moment: f64 =
         shape.iter().zip(grid.edges.windows(2)).map(|(s, e)| s * 0.5 * (e[1] * e[1] - e[0] * e[0])).sum();
-    let scale = ct * PI * RADIUS.powi(4) * OMEGA / (options.n_blades as f64 * moment);
+    let scale = ct * PI * RADIUS.powi(4) * OMEGA / (options.rotor.n_blades as f64 * moment);
     shape.iter().map(|s| s * scale).collect()
 }
 
 fn loaded(options: &WakeOptions, hub: wakeflight::wake::HubMotion, mean_inflow: f64) -> RelaxationWake {
-    let n = options.steps_per_revolution;
-    let mut wake = RelaxationWake::new(options.clone(), hub, mean_inflow).unwrap();
+    let n = options.steps_per_revolution();
+    let mut wake = RelaxationWake::new(*options, own(options), hub, mean_inflow).unwrap();
     wake.set_state(hub, &vec![(0.0, 0.0); n], &rounded_circulation(options, CT).repeat(n)).unwrap();
     wake
 }
@@ -72,9 +72,9 @@ fn divergence(instant: &RotorInstant, options: &WakeOptions, own: Option<usize>)
 fn unsteady_wake(options: &WakeOptions) -> TimeMarchingWake {
     let hub = hub(0.15, 0.01, 0.0, 0.0, 0.0);
     let start = loaded(options, hub, 0.03);
-    let mut wake = TimeMarchingWake::from_relaxation(&start, 0).unwrap();
+    let mut wake = TimeMarchingWake::from_relaxation(&start, 0, MarchingOptions::default()).unwrap();
     for step in 1..=options.n_segments() + 3 {
-        let circulation: Vec<f64> = (0..options.n_blades * options.n_stations)
+        let circulation: Vec<f64> = (0..options.rotor.n_blades * options.n_stations)
             .map(|j| 10.0 + 4.0 * (1.3 * j as f64 + 0.7 * step as f64).sin())
             .collect();
         wake.step(hub, &blades(options, step), &circulation).unwrap();
@@ -122,20 +122,21 @@ fn verif_uniform_circulation_leaves_a_tip_and_a_root_filament() {
     let points: Vec<[f64; 3]> =
         (0..30).map(|i| [7.0 * (2.1 * i as f64).cos(), 0.25 * i as f64, -0.6 + 0.03 * i as f64]).collect();
     let field = |options: &WakeOptions| {
-        let n = options.steps_per_revolution;
+        let n = options.steps_per_revolution();
         let mut wake: RelaxationWake<Nothing> =
-            RelaxationWake::with_field(options.clone(), hub, 0.0, Prescribed(nothing)).unwrap();
+            RelaxationWake::with_field(*options, own(options), hub, 0.0, Prescribed(nothing)).unwrap();
         wake.set_state(hub, &vec![(0.04, 0.0); n], &vec![12.0; n * options.n_stations]).unwrap();
         wake.sweep(1).unwrap();
         point_velocity(&VortexSegments::new(options), options, &wake.instant(5), &points)
     };
     let base = WakeOptions { trailer_core: 0.02, ..full_span() };
     let reference = {
-        let tip = field(&WakeOptions { trailers: Trailers::Tip, ..base.clone() });
+        let tip = field(&WakeOptions { trailers: Trailers::Tip, ..base });
         // the root filament as the tip vortex of a blade that ends there, without the bound vortex
-        let stub =
-            WakeOptions { radius: CUTOUT * RADIUS, root_cutout: 0.5 * CUTOUT * RADIUS, ..base.clone() };
-        let scale = RADIUS / stub.radius;
+        let stub_rotor =
+            WakeRotor { radius: CUTOUT * RADIUS, root_cutout: 0.5 * CUTOUT * RADIUS, ..base.rotor };
+        let stub = WakeOptions { rotor: stub_rotor, ..base };
+        let scale = RADIUS / stub.rotor.radius;
         let stub = WakeOptions {
             trailers: Trailers::Tip,
             core_radius: stub.core_radius * scale,
@@ -159,7 +160,7 @@ fn verif_uniform_circulation_leaves_a_tip_and_a_root_filament() {
         tip.iter().zip(&root).map(|(t, r)| std::array::from_fn(|c| t[c] - r[c])).collect::<Vec<[f64; 3]>>()
     };
     for n_trailers in [2, 8, 15] {
-        let found = field(&WakeOptions { n_trailers, ..base.clone() });
+        let found = field(&WakeOptions { n_trailers, ..base });
         for (a, b) in found.iter().zip(&reference) {
             for c in 0..3 {
                 assert!((a[c] - b[c]).abs() < 1e-11, "{n_trailers}: {a:?} {b:?}");
@@ -201,7 +202,7 @@ fn rectangular_wing(aspect: f64, n: usize) -> [f64; 2] {
         n_stations: n,
         trailers: Trailers::FullSpan,
         near_wake_angle: 0.0,
-        steps_per_revolution: 60,
+        azimuth_step: TAU / 60.0,
         turns: 1.0,
         trailer_core: 0.0,
         core_growth: 0.0,
@@ -273,12 +274,11 @@ fn verif_shed_vortices_bring_the_lift_deficiency_of_theodorsen() {
     let case = |shed: ShedWake, k: f64, full_angle: f64| {
         let n_k = 360;
         let options = WakeOptions {
-            n_blades: 1,
             n_stations: 9,
             n_trailers: 2,
             trailers: Trailers::FullSpan,
             shed_wake: shed,
-            steps_per_revolution: n_k,
+            azimuth_step: TAU / n_k as f64,
             turns: 1.0,
             near_wake_angle: full_angle * near as f64,
             trailer_core: 0.0,
@@ -334,7 +334,7 @@ fn disk_inflow(wake: &RelaxationWake) -> f64 {
             [r * psi.cos(), r * psi.sin(), 0.0]
         })
         .collect();
-    let instants = options.steps_per_revolution / options.n_blades;
+    let instants = options.steps_per_revolution() / options.rotor.n_blades;
     let sum: f64 =
         (0..instants).flat_map(|l| wake.wake_velocity(&points, l)).map(|v| -v[2] / options.tip_speed()).sum();
     sum / (instants * points.len()) as f64
@@ -342,8 +342,7 @@ fn disk_inflow(wake: &RelaxationWake) -> f64 {
 
 #[test]
 fn verif_hover_inflow_obeys_momentum_and_blades_are_alike() {
-    let options =
-        WakeOptions { turns: 2.0, far_wake_turns: 6, relaxation: 0.3, n_trailers: 5, ..full_span() };
+    let options = WakeOptions { turns: 2.0, far_wake_turns: 6, n_trailers: 5, ..full_span() };
     let mut wake = loaded(&options, hub(0.0, 0.0, 0.0, 0.0, 0.0), (0.5 * CT).sqrt());
     let norms = wake.sweep(30).unwrap();
     let map = wake.inflow_far();
@@ -353,7 +352,7 @@ fn verif_hover_inflow_obeys_momentum_and_blades_are_alike() {
         .iter()
         .zip(grid.edges.windows(2))
         .map(|(g, e)| {
-            let inflow = (options.n_blades as f64 * g / (4.0 * PI * OMEGA)).sqrt() / RADIUS;
+            let inflow = (options.rotor.n_blades as f64 * g / (4.0 * PI * OMEGA)).sqrt() / RADIUS;
             inflow * (e[1] * e[1] - e[0] * e[0]) / (RADIUS * RADIUS)
         })
         .sum();
@@ -407,8 +406,7 @@ fn verif_central_marching_settles_on_the_relaxed_lattice() {
     // level flight the root trailers pass the next blade within a step, and that is 2 % of the mean inflow
     let settled = |steps: usize| {
         let options = WakeOptions {
-            scheme: Scheme::Pcc,
-            steps_per_revolution: steps,
+            azimuth_step: TAU / steps as f64,
             turns: 1.0,
             n_trailers: 5,
             trailer_core: 0.06,
@@ -418,7 +416,8 @@ fn verif_central_marching_settles_on_the_relaxed_lattice() {
         let mut start = loaded(&options, hub, 0.016);
         settle(&mut start, 1e-6, 120);
         let reference = start.inflow_far();
-        let mut wake = TimeMarchingWake::from_relaxation(&start, 0).unwrap();
+        let central = MarchingOptions { scheme: Scheme::Pcc, ..MarchingOptions::default() };
+        let mut wake = TimeMarchingWake::from_relaxation(&start, 0, central).unwrap();
         let circulation = rounded_circulation(&options, CT).repeat(2);
         let n_r = options.n_stations;
         let mut map = vec![0.0; steps * n_r];
@@ -463,20 +462,16 @@ fn verif_every_trailer_is_second_order() {
         })
     };
     let error = |scheme: Option<Scheme>, steps: usize| {
-        let options = WakeOptions {
-            steps_per_revolution: steps,
-            turns: 2.0,
-            n_trailers: 3,
-            relaxation: 1.0,
-            scheme: scheme.unwrap_or(Scheme::Bdf2),
-            ..full_span()
-        };
+        let options =
+            WakeOptions { azimuth_step: TAU / steps as f64, turns: 2.0, n_trailers: 3, ..full_span() };
+        let whole = RelaxationOptions { relaxation: 1.0, ..RelaxationOptions::default() };
+        let own = MarchingOptions { scheme: scheme.unwrap_or(Scheme::Bdf2), ..MarchingOptions::default() };
         let none = vec![0.0; steps * options.n_stations];
         let field: fn([f64; 3]) -> [f64; 3] = swirl;
-        let mut start = RelaxationWake::with_field(options.clone(), hub, 0.01, Prescribed(field)).unwrap();
+        let mut start = RelaxationWake::with_field(options, whole, hub, 0.01, Prescribed(field)).unwrap();
         start.set_state(hub, &vec![(0.0, 0.0); steps], &none).unwrap();
         start.sweep(60).unwrap();
-        let mut wake = TimeMarchingWake::from_relaxation(&start, 0).unwrap();
+        let mut wake = TimeMarchingWake::from_relaxation(&start, 0, own).unwrap();
         if scheme.is_some() {
             for step in 1..=4 * steps {
                 wake.step(hub, &blades(&options, step), &none[..2 * options.n_stations]).unwrap();
@@ -509,17 +504,19 @@ fn verif_every_trailer_is_second_order() {
 fn verif_the_field_of_a_full_span_wake_by_the_tree_is_within_its_tolerance() {
     let hub = hub(0.1, 0.0, 0.0, 0.0, 0.0);
     let lattice = WakeOptions {
-        n_blades: 4,
+        rotor: options().rotor,
         n_stations: 20,
         n_trailers: 0,
-        steps_per_revolution: 36,
+        azimuth_step: TAU / 36.0,
         turns: 4.0,
         trailer_core: 0.02,
         ..full_span()
     };
     let field = |summation: Summation, tree_tolerance: f64| {
-        let options = WakeOptions { summation, tree_tolerance, ..lattice.clone() };
-        let wake = TimeMarchingWake::from_relaxation(&loaded(&options, hub, 0.02), 0).unwrap();
+        let options = WakeOptions { summation, tree_tolerance, ..lattice };
+        let wake =
+            TimeMarchingWake::from_relaxation(&loaded(&options, hub, 0.02), 0, MarchingOptions::default())
+                .unwrap();
         wake.wake_velocity(wake.position())
     };
     let size = |v: [f64; 3]| v.iter().map(|c| c * c).sum::<f64>().sqrt();
@@ -545,10 +542,12 @@ fn verif_marching_by_the_tree_is_marching_by_the_direct_sum_within_its_tolerance
             tree_tolerance: tolerance,
             n_stations: 20,
             n_trailers: 16,
-            steps_per_revolution: 36,
+            azimuth_step: TAU / 36.0,
             ..full_span()
         };
-        let mut wake = TimeMarchingWake::from_relaxation(&loaded(&options, hub, 0.03), 0).unwrap();
+        let mut wake =
+            TimeMarchingWake::from_relaxation(&loaded(&options, hub, 0.03), 0, MarchingOptions::default())
+                .unwrap();
         for step in 1..=2 {
             wake.step(hub, &blades(&options, step), &[12.0; 40]).unwrap();
         }
@@ -563,7 +562,7 @@ fn verif_marching_by_the_tree_is_marching_by_the_direct_sum_within_its_tolerance
     let largest = induced.iter().map(|v| v.iter().map(|c| c * c).sum::<f64>().sqrt()).fold(0.0, f64::max);
     // an error e of the velocity moves a marker by e dt/1.75 in a step, 1/7 of that of the one before it along the filament
     // besides, and 2/1.75 of what the last step did: 0.67 e dt, then 1.6 e dt
-    let allowed = 1.6 * tolerance * largest * options.delta_psi() / options.omega;
+    let allowed = 1.6 * tolerance * largest * options.delta_psi() / options.rotor.omega;
     let apart = |a: &[[f64; 3]]| {
         let gap = |(p, q): (&[f64; 3], &[f64; 3])| (0..3).map(|c| (p[c] - q[c]).powi(2)).sum::<f64>().sqrt();
         a.iter().zip(&direct).map(gap).fold(0.0, f64::max)

@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 use wakeflight::wake::{
-    BladeState, Evaluation, Form, HubMotion, Predictor, Prescribed, RelaxationWake, Scheme, TimeMarchingWake,
-    WakeOptions,
+    BladeState, Evaluation, Form, HubMotion, MarchingOptions, Predictor, Prescribed, RelaxationOptions,
+    RelaxationWake, Scheme, TimeMarchingWake, WakeOptions,
 };
 
 type Field = Prescribed<fn([f64; 3]) -> [f64; 3]>;
@@ -13,11 +13,10 @@ const OMEGA: f64 = 27.0;
 
 fn options(steps: usize, turns: f64) -> WakeOptions {
     WakeOptions {
-        steps_per_revolution: steps,
+        azimuth_step: TAU / steps as f64,
         turns,
-        n_stations: 1,
+        n_stations: 5,
         near_wake_angle: 0.0,
-        relaxation: 1.0,
         ..WakeOptions::new(4, RADIUS, 0.2 * RADIUS, 0.0, 0.5, OMEGA)
     }
 }
@@ -47,17 +46,19 @@ fn periodic(
     mean_inflow: f64,
     field: Field,
 ) -> RelaxationWake<Field> {
-    let n = options.steps_per_revolution;
-    let mut wake = RelaxationWake::with_field(options.clone(), hub, mean_inflow, field).unwrap();
+    let n = options.steps_per_revolution();
+    let whole = RelaxationOptions { relaxation: 1.0, ..RelaxationOptions::default() };
+    let mut wake = RelaxationWake::with_field(*options, whole, hub, mean_inflow, field).unwrap();
     wake.set_state(hub, &vec![(flap, 0.0); n], &vec![0.0; n * options.n_stations]).unwrap();
     wake
 }
 
 fn blades(options: &WakeOptions, step: usize, flap: f64) -> Vec<BladeState> {
-    (0..options.n_blades)
+    (0..options.rotor.n_blades)
         .map(|b| BladeState {
             psi: TAU
-                * (step as f64 / options.steps_per_revolution as f64 + b as f64 / options.n_blades as f64),
+                * (step as f64 / options.steps_per_revolution() as f64
+                    + b as f64 / options.rotor.n_blades as f64),
             flap,
             lead: 0.0,
         })
@@ -66,13 +67,14 @@ fn blades(options: &WakeOptions, step: usize, flap: f64) -> Vec<BladeState> {
 
 fn marched(
     start: &RelaxationWake<Field>,
+    own: MarchingOptions,
     hub: HubMotion,
     flap: f64,
     steps: usize,
 ) -> TimeMarchingWake<Field> {
-    let mut wake = TimeMarchingWake::from_relaxation(start, 0).unwrap();
-    let options = wake.options().clone();
-    let circulation = vec![0.0; options.n_blades * options.n_stations];
+    let mut wake = TimeMarchingWake::from_relaxation(start, 0, own).unwrap();
+    let options = *wake.options();
+    let circulation = vec![0.0; options.rotor.n_blades * options.n_stations];
     for n in 1..=steps {
         wake.step(hub, &blades(&options, n, flap), &circulation).unwrap();
     }
@@ -130,12 +132,12 @@ enum Solver {
 /// RMS error over R in the swirling field at `steps` per revolution.
 fn swirl_error(solver: &Solver, steps: usize) -> f64 {
     let (hub, flap) = (hub(0.185, -0.015), 0.05);
-    let mut options = options(steps, 3.0);
+    let (mut options, mut own) = (options(steps, 3.0), MarchingOptions::default());
     if let Solver::Marching(scheme, form) = solver {
-        (options.scheme, options.form) = (*scheme, *form);
+        (own.scheme, options.form) = (*scheme, *form);
     }
     if let Solver::OneField(scheme) = solver {
-        (options.scheme, options.evaluation) = (*scheme, Evaluation::Pec);
+        (own.scheme, own.evaluation) = (*scheme, Evaluation::Pec);
     }
     let mut start = periodic(&options, hub, flap, 0.0, Prescribed(swirl as fn([f64; 3]) -> [f64; 3]));
     let exact = |psi: f64| exact_filament(&options, psi, flap, hub, swirl);
@@ -147,7 +149,7 @@ fn swirl_error(solver: &Solver, steps: usize) -> f64 {
             errors(start.position(), &all).0
         }
         Solver::Marching(..) | Solver::OneField(..) => {
-            let wake = marched(&start, hub, flap, 8 * steps);
+            let wake = marched(&start, own, hub, flap, 8 * steps);
             let all: Vec<[f64; 3]> = (0..4).flat_map(|b| exact(TAU * b as f64 / 4.0)).collect();
             errors(wake.position(), &all).0
         }
@@ -230,9 +232,9 @@ mod contraction {
 
     /// Largest error over R.
     fn error(scheme: Option<(Scheme, Form)>, steps: usize) -> f64 {
-        let mut options = options(steps, 3.0);
+        let (mut options, mut own) = (options(steps, 3.0), MarchingOptions::default());
         if let Some((scheme, form)) = scheme {
-            (options.scheme, options.form) = (scheme, form);
+            (own.scheme, options.form) = (scheme, form);
         }
         let mut start =
             periodic(&options, hub(0.0, 0.0), 0.0, 0.0, Prescribed(field as fn([f64; 3]) -> [f64; 3]));
@@ -243,7 +245,7 @@ mod contraction {
                 (0..steps).flat_map(|l| exact(&options, TAU * l as f64 / steps as f64)).collect();
             return errors(start.position(), &all).1;
         }
-        let wake = marched(&start, hub(0.0, 0.0), 0.0, 6 * steps);
+        let wake = marched(&start, own, hub(0.0, 0.0), 0.0, 6 * steps);
         let all: Vec<[f64; 3]> = (0..4).flat_map(|b| exact(&options, TAU * b as f64 / 4.0)).collect();
         errors(wake.position(), &all).1
     }
@@ -340,10 +342,11 @@ mod undisturbed {
 
     /// Largest deviation from the carried helix after three revolutions, over R.
     fn deviation(scheme: Scheme, form: Form, predictor: Predictor) -> f64 {
-        let options = WakeOptions { scheme, form, predictor, ..options(36, 3.0) };
+        let options = WakeOptions { form, ..options(36, 3.0) };
+        let own = MarchingOptions { scheme, predictor, ..MarchingOptions::default() };
         let hub = hub(0.185, -0.03);
         let start = periodic(&options, hub, 0.05, 0.0, Prescribed(nothing as fn([f64; 3]) -> [f64; 3]));
-        let wake = marched(&start, hub, 0.05, 108);
+        let wake = marched(&start, own, hub, 0.05, 108);
         let all: Vec<[f64; 3]> =
             (0..4).flat_map(|b| exact_filament(&options, TAU * b as f64 / 4.0, 0.05, hub, nothing)).collect();
         errors(wake.position(), &all).1
@@ -363,10 +366,11 @@ mod undisturbed {
     #[test]
     fn verif_backward_differences_of_positions_contract_and_delay_the_helix() {
         // one per rev at 10 deg: 0.9918 of the amplitude and 2.7 deg of lag per turn
-        let options = WakeOptions { scheme: Scheme::Pc2b, form: Form::Position, ..options(36, 4.0) };
+        let options = WakeOptions { form: Form::Position, ..options(36, 4.0) };
+        let own = MarchingOptions { scheme: Scheme::Pc2b, ..MarchingOptions::default() };
         let start =
             periodic(&options, hub(0.0, -0.03), 0.0, 0.0, Prescribed(nothing as fn([f64; 3]) -> [f64; 3]));
-        let wake = marched(&start, hub(0.0, -0.03), 0.0, 10 * 36);
+        let wake = marched(&start, own, hub(0.0, -0.03), 0.0, 10 * 36);
         let at = |k: usize| wake.position()[k];
         for turn in 1..=3 {
             let (p, q) = (at(36 * turn), at(36 * (turn + 1)));

@@ -15,7 +15,8 @@ from .mass import airframe_inertia, blade_mass
 from .rotor_checks import SPEED_OF_SOUND, check_rotor
 from .rotor_doubts import in_grid, interpolated
 from .schema import AircraftFile, Loading
-from .sections import LARGEST_COEFFICIENT, PLAUSIBLE_SLOPES, check_sections, tip_mach_warnings
+from .sections import LARGEST_COEFFICIENT, PLAUSIBLE_SLOPES, tip_mach_warnings
+from .span import check_span, tip_section
 
 STICKS = ("lateral", "longitudinal", "collective", "pedal")
 PITCHES = ("theta_1c", "theta_1s", "theta_0", "theta_tr")
@@ -46,13 +47,8 @@ def check_aircraft(spec: AircraftFile, parts: dict[str, Any], path: Path) -> lis
     def in_rotor(key: str, value: object, allowed: str) -> InputError:
         return refuse(f"rotor.{key}", value, allowed)
 
-    def in_sections(name: str, value: object, allowed: str) -> InputError:
-        return getattr(spec.rotor.airfoil, name).error(f"rotor.airfoil.{name}", value, allowed)
-
-    sections = {name: parts["airfoil"][name] for name in ("cl", "cd", "cm")}
-    warnings = [
-        f"rotor.airfoil: {text}" for text in check_sections(sections, parts["airfoil"]["cd_increment"], in_sections)
-    ]
+    sections = tip_section(parts["airfoil"])
+    warnings = check_span(spec.rotor.airfoil, parts["airfoil"], path)
     warnings += check_rotor(spec.rotor, parts["blade"], parts["lag_damper"], sections, in_rotor)
     fastest = float(spec.rotor.omega * spec.rotor.radius + spec.condition.speed) / SPEED_OF_SOUND
     warnings += [

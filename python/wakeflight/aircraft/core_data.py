@@ -5,28 +5,25 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
 
 from ..units import STANDARD_GRAVITY
 from . import tables
+from .blade_data import blade_data
 from .mass import airframe_inertia, blade_mass
-from .schema import AircraftFile, InterferenceTables, Loading, Rotor, Stabilator
+from .schema import AircraftFile, InterferenceTables, Loading, Stabilator
+from .span import span_data
 from .tables import TableFile
 
 _KNOT = 1852.0 / 3600.0
 
-STRUCTURE_COLUMNS = ("r_in", "r_out", "mass", "EI_flap", "EI_lag", "GJ", "I_theta_cg", "x_cg", "x_cg_straight")
-"""Columns of a table of blade structure."""
 
-
-def fixed_parts(spec: AircraftFile) -> dict[str, Any]:
-    """Everything that does not depend on the loading, tables read and checked for coverage."""
+def fixed_parts(spec: AircraftFile, path: Path) -> dict[str, Any]:
+    """Everything that does not depend on the loading, tables read and checked for coverage; path: of the file, for messages."""
     return {
-        "blade": {
-            **blade_data(spec.rotor, structure_data(spec.rotor)),
-            "rigid": not spec.rotor.blade.flexible,
-        },
-        "airfoil": _airfoil(spec.rotor),
+        "blade": blade_data(spec.rotor, path),
+        "airfoil": span_data(spec.rotor.airfoil, float(spec.rotor.radius), float(spec.rotor.blade.root_cutout), path),
         "lag_damper": lag_damper_data(spec.rotor),
         "fuselage": _fuselage(spec),
         "stabilator": _surface(spec.stabilator, "alpha") if spec.stabilator else None,
@@ -64,6 +61,7 @@ def assembled(spec: AircraftFile, parts: dict[str, Any], loading: Loading, gross
         "rotor": {
             "n_blades": int(rotor.n_blades),
             "omega": float(rotor.omega),
+            "rotation": rotor.rotation,
             "position": hub,
             "shaft_tilt_forward": float(rotor.shaft_tilt_forward),
             "shaft_tilt_lateral": float(rotor.shaft_tilt_lateral),
@@ -85,97 +83,6 @@ def assembled(spec: AircraftFile, parts: dict[str, Any], loading: Loading, gross
         "tail_rotor": placed("tail_rotor", spec.tail_rotor and spec.tail_rotor.hub),
         "interference": parts["interference"],
         "accessory_power": float(spec.drive.accessory_power),
-    }
-
-
-def blade_data(rotor: Any, structure: dict[str, list[float]]) -> dict[str, Any]:
-    """Blade of a rotor with its structure, tables checked for coverage."""
-    blade, radius = rotor.blade, float(rotor.radius)
-    geometry = blade.geometry
-    geometry.refuse_unused(("r", "twist", "chord"), zero_is_nothing=True)
-    stations = geometry.column("r", "m", radius)
-    tables.ascending(geometry, "r", stations)
-    root = float(blade.root_station)
-    tables.covering(geometry, "r", stations, root, radius, f"the root at {root:.6g} m to the tip at {radius:.6g} m")
-    chord = geometry.column("chord", "m")
-    for station, value in zip(stations, chord, strict=True):
-        if station >= float(blade.root_cutout) and not value > 0.0:
-            raise geometry.error("chord", f"{value:g} m at {station:.6g} m", "must be above 0 beyond the root cut-out")
-    return {
-        "root": blade.root,
-        "root_station": root,
-        "radius": radius,
-        "root_cutout": float(blade.root_cutout),
-        "structure": structure,
-        "twist": {"x": stations, "y": geometry.column("twist", "rad")},
-        "chord": {"x": stations, "y": chord},
-        "pitch_axis_chord_fraction": float(blade.pitch_axis_chord_fraction),
-        "control_stiffness": float(blade.control_stiffness),
-        "km1_over_ktheta": float(blade.km1_over_ktheta),
-        "ka_over_ktheta": float(blade.ka_over_ktheta),
-        "structural_damping_ratio": float(blade.structural_damping_ratio),
-        "delta3": float(blade.delta3),
-        "precone": float(blade.precone),
-    }
-
-
-def structure_data(rotor: Any) -> dict[str, list[float]]:
-    """Segments from the root to the tip, clipped; at a hinge up to 1 % of the radius may be massless."""
-    table, radius = rotor.blade.structure, float(rotor.radius)
-    table.refuse_unused(STRUCTURE_COLUMNS, zero_is_nothing=True)
-    root = float(rotor.blade.root_station)
-    r_in, r_out = table.column("r_in", "m", None), table.column("r_out", "m", None)
-    rounding = 1e-4 * radius
-    for outer, inner in zip(r_out, r_in[1:], strict=False):
-        if abs(outer - inner) > 1e-9:
-            raise table.error("r_in", f"{inner:.6g} m after r_out {outer:.6g} m", "segments must join")
-    for inner, outer in zip(r_in, r_out, strict=True):
-        if not outer > inner:
-            raise table.error("r_out", f"{outer:.6g} m", f"must lie beyond r_in, {inner:.6g} m")
-    gap = 0.01 * radius if rotor.blade.root == "hinged" else rounding
-    if r_in[0] > root + gap or r_out[-1] < radius - rounding:
-        span = f"{r_in[0]:.6g} .. {r_out[-1]:.6g} m"
-        raise table.error("r_in, r_out", span, f"must cover {root:.6g} m to {radius:.6g} m")
-    if abs(r_in[0] - root) < rounding:
-        r_in[0] = root
-    if abs(r_out[-1] - radius) < rounding:
-        r_out[-1] = radius
-    x_cg = "x_cg_straight" if rotor.blade.straight_tip and table.has("x_cg_straight") else "x_cg"
-    columns = {
-        "mass": ("mass", "kg/m", 0.0),
-        "ei_flap": ("EI_flap", "N m2", None),
-        "ei_lag": ("EI_lag", "N m2", None),
-        "gj": ("GJ", "N m2", None),
-        "i_theta": ("I_theta_cg", "kg m", 0.0),
-        "x_cg": (x_cg, "m", -math.inf),
-    }
-    if table.has("x_cg_straight"):
-        # one of the two is used, both are checked
-        table.column("x_cg_straight", "m")
-        table.column("x_cg", "m")
-    structure: dict[str, list[float]] = {"r_in": r_in, "r_out": r_out}
-    for key, (base, unit, low) in columns.items():
-        values = table.column(base, unit)
-        for value in values:
-            if (low is None and not value > 0.0) or (low is not None and value < low):
-                raise table.error(
-                    base, f"{value:g} {unit}", "must be above 0" if low is None else "must not be negative"
-                )
-        structure[key] = values
-    kept = [i for i in range(len(r_in)) if r_out[i] > root and r_in[i] < radius]
-    clipped = {key: [values[i] for i in kept] for key, values in structure.items()}
-    clipped["r_in"] = [max(each, root) for each in clipped["r_in"]]
-    clipped["r_out"] = [min(each, radius) for each in clipped["r_out"]]
-    return clipped
-
-
-def _airfoil(rotor: Rotor) -> dict[str, Any]:
-    airfoil = rotor.airfoil
-    return {
-        "cl": tables.by_mach(airfoil.cl),
-        "cd": tables.by_mach(airfoil.cd),
-        "cm": tables.by_mach(airfoil.cm),
-        "cd_increment": float(airfoil.cd_increment),
     }
 
 

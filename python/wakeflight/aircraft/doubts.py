@@ -85,7 +85,8 @@ def doubts_of_aircraft(spec: AircraftFile, parts: dict[str, Any]) -> list[str]:
             for key in ("fuselage", "stabilator")
             if wash[key] < 0.0
         ]
-    if spec.rotor.blade.straight_tip and not spec.rotor.blade.structure.has("x_cg_straight"):
+    structure = spec.rotor.blade.structure
+    if spec.rotor.blade.straight_tip and structure is not None and not structure.has("x_cg_straight"):
         warnings.append("rotor.blade.straight_tip: the structure has no column x_cg_straight; x_cg is used")
     return warnings
 
@@ -94,8 +95,8 @@ def _controls(spec: AircraftFile) -> list[str]:
     """Tilt of the shaft, phase of the swashplate, fixed incidences."""
     rotor = spec.rotor
     angles = {
-        "rotor.shaft_tilt_forward": (rotor.shaft_tilt_forward, LARGEST_TILT),
-        "rotor.shaft_tilt_lateral": (rotor.shaft_tilt_lateral, LARGEST_TILT),
+        "rotor.shaft.forward": (rotor.shaft_tilt_forward, LARGEST_TILT),
+        "rotor.shaft.lateral": (rotor.shaft_tilt_lateral, LARGEST_TILT),
         "rotor.swashplate_phase": (rotor.swashplate_phase, LARGEST_PHASE),
         "stabilator.incidence": (spec.stabilator and spec.stabilator.incidence, LARGEST_INCIDENCE),
         "fin.incidence": (spec.fin and spec.fin.incidence, LARGEST_INCIDENCE),
@@ -111,9 +112,9 @@ def _places(spec: AircraftFile) -> list[str]:
     """Parts of the airframe by the centre of gravity: stations, buttlines and waterlines from one datum lie within reach."""
     base, radius = spec.loading, float(spec.rotor.radius)
     centre = (base.cg_station, base.cg_buttline, base.cg_waterline)
-    places = {"rotor.hub": spec.rotor.hub}
+    places = {"rotor.position": spec.rotor.hub}
     if spec.tail_rotor is not None:
-        places["tail_rotor.hub"] = spec.tail_rotor.hub
+        places["tail_rotor.position"] = spec.tail_rotor.hub
     for name in ("stabilator", "fin", "fuselage"):
         if getattr(spec, name) is not None:
             places[f"{name}.position"] = getattr(spec, name).position
@@ -126,18 +127,24 @@ def _places(spec: AircraftFile) -> list[str]:
 
 
 def _power(spec: AircraftFile) -> list[str]:
-    """Stated limit by what momentum theory asks for in hover, W sqrt(W / (2 rho A)), the least any rotor needs."""
+    """Stated limits by what momentum theory asks for in hover, W sqrt(W / (2 rho A)), the least any rotor needs."""
     if spec.limits is None:
         return []
+    omega, limits = float(spec.rotor.omega), spec.limits
+    warnings = []
+    if limits.rotor_speed is not None and not limits.rotor_speed[0] <= omega <= limits.rotor_speed[1]:
+        low, high = limits.rotor_speed
+        warnings.append(f"limits.rotor_speed: rotor.omega, {omega:.4g} rad/s, lies outside {low:.4g} to {high:.4g}")
     weight, disk = float(spec.condition.weight), math.pi * float(spec.rotor.radius) ** 2
     ideal = weight * math.sqrt(weight / (2.0 * SEA_LEVEL_DENSITY * disk))
-    share = float(spec.limits.power) / ideal
-    warnings = []
-    if not POWERS[0] <= share <= POWERS[1]:
-        warnings.append(
-            f"limits.power: {share:.3g} times the ideal power of hover at sea level; helicopters have 2 to 3"
-        )
-    if spec.drive.accessory_power > 0.5 * spec.limits.power:
+    powers = {"power": limits.power, "torque": None if limits.torque is None else limits.torque * omega}
+    for key, power in powers.items():
+        if power is not None and not POWERS[0] <= power / ideal <= POWERS[1]:
+            told = "" if key == "power" else " at rotor.omega"
+            warnings.append(
+                f"limits.{key}: {power / ideal:.3g} times the ideal power of hover at sea level{told}; helicopters have 2 to 3"
+            )
+    if limits.power is not None and spec.drive.accessory_power > 0.5 * limits.power:
         warnings.append("drive.accessory_power: more than half of limits.power")
     return warnings
 
@@ -200,7 +207,9 @@ def _tail(name: str, position: Sequence[float], surface: dict[str, Any], spec: A
 def _tail_rotor(tail: TailRotor, spec: AircraftFile) -> list[str]:
     warnings = []
     if not tail.hub[0] > spec.rotor.hub[0]:
-        warnings.append("tail_rotor.hub: not behind the hub, where its thrust to the right would add to the torque")
+        warnings.append(
+            "tail_rotor.position: not behind the hub, where its thrust to the right would add to the torque"
+        )
     low, high = TAIL_DRAG
     if not low <= tail.cd_polar[0] <= high:
         warnings.append(f"tail_rotor.cd_polar: {tail.cd_polar[0]:.3g} without lift; sections have 0.006 to 0.012")

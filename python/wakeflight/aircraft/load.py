@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from difflib import get_close_matches
 from importlib import resources
 from pathlib import Path
 from typing import Any, get_args
@@ -14,6 +15,7 @@ from ..references import known_keys
 from ..text import read_toml
 from .model import Aircraft
 from .schema import AircraftFile
+from .versions import Written, groups_of
 
 SHIPPED = ("uh60a", "bo105")
 """Names of the aircraft that come with the package."""
@@ -27,7 +29,7 @@ def load_aircraft(name_or_path: str | Path = "uh60a", loading: str | None = None
     Raises InputError, one line naming file, key, value and what is allowed.
     """
     path = find(name_or_path)
-    return Aircraft(validated(path, parsed(path), AircraftFile), path, loading)
+    return Aircraft(validated(path, groups_of(path, parsed(path)), AircraftFile), path, loading)
 
 
 def find(name_or_path: str | Path) -> Path:
@@ -49,17 +51,15 @@ def parsed(path: Path) -> dict[str, Any]:
         raise InputError(one_line(f"{path}: {reason}")) from reason
 
 
-def validated(path: Path, data: dict[str, Any], schema: type[BaseModel], raw: dict[str, Any] | None = None) -> Any:
-    """`data` of the file `path` as `schema`, its citations known; InputError names the first thing wrong.
-
-    raw: what the file itself holds, where `data` was written out from it: errors name the keys of the file.
-    """
+def validated(path: Path, written: Written, schema: type[BaseModel]) -> Any:
+    """What is `written` in the file `path` as `schema`, its citations known; InputError names the first thing wrong."""
+    data = written.data
     sources = data.get("sources")
     context = {"file": path, "directory": path.parent, "sources": set(sources) if isinstance(sources, dict) else set()}
     try:
         spec = schema.model_validate(data, context=context)
     except ValidationError as reason:
-        raise _one_error(path, reason, data, schema, data if raw is None else raw) from None
+        raise _one_error(path, reason, written, schema) from None
     for key, source in spec.sources.items():
         for reference in source.references:
             if reference not in known_keys():
@@ -68,10 +68,9 @@ def validated(path: Path, data: dict[str, Any], schema: type[BaseModel], raw: di
     return spec
 
 
-def _one_error(
-    path: Path, reason: ValidationError, data: dict, schema: type[BaseModel], raw: dict[str, Any]
-) -> InputError:
+def _one_error(path: Path, reason: ValidationError, written: Written, schema: type[BaseModel]) -> InputError:
     """The first error of a validation in one line; a missing or unknown key goes before its consequences."""
+    data, raw = written.data, written.raw
     order = {"extra_forbidden": 0, "missing": 1}
     error = min(reason.errors(), key=lambda each: order.get(each["type"], 2))
     location = [str(part) for part in error["loc"]]
@@ -79,16 +78,19 @@ def _one_error(
     location = [
         part for i, part in enumerate(location) if not (location[:i] == ["interference"] and i == 1 and _tag(data))
     ]
-    written = _at(raw, location[:-1])
-    if location and not isinstance(written, dict):
+    group = _at(raw, location[:-1])
+    if location and not isinstance(group, dict) and not (isinstance(group, list) and location[-1].isdigit()):
         # a number or a list where the file should have a group: the keys below are not the file's
-        keys = ", ".join(_allowed(schema, location[:-1], data))
-        return InputError.of(".".join(location[:-1]), written, f"must be a group with keys of: {keys}", file=path)
-    key = ".".join(location) or "file"
+        keys = ", ".join(written.allowed(location[:-1], _allowed(schema, location[:-1], data)))
+        where = ".".join(written.key(location[:-1]))
+        return InputError.of(where, group, f"must be a group with keys of: {keys}", file=path)
+    location = _of_file(raw, location)
+    key = ".".join(written.key(location)) or "file"
     if error["type"] == "extra_forbidden":
-        return InputError.of(
-            key, "unknown key", f"allowed here: {', '.join(_allowed(schema, location[:-1], data))}", file=path
-        )
+        allowed = written.allowed(location[:-1], _allowed(schema, location[:-1], data))
+        near = get_close_matches(location[-1], allowed, n=1)
+        meant = f"is {near[0]} meant? " if near else ""
+        return InputError.of(key, "unknown key", f"{meant}allowed here: {', '.join(allowed)}", file=path)
     if error["type"] == "missing":
         return InputError.of(key, "missing", "must be given", file=path)
     message = error["msg"].removeprefix("Value error, ")
@@ -102,13 +104,20 @@ def _one_error(
     return InputError.of(key, value, message, file=path)
 
 
+def _of_file(raw: Any, location: list[str]) -> list[str]:
+    """`location` by the keys that a file has: a group where a list is allowed stands in it without number."""
+    return [
+        part for i, part in enumerate(location) if not (part.isdigit() and isinstance(_at(raw, location[:i]), dict))
+    ]
+
+
 def _at(raw: Any, location: list[str]) -> Any:
     """What a file holds at `location`; an empty group where it holds nothing."""
     for part in location:
         if isinstance(raw, list) and part.isdigit() and int(part) < len(raw):
             raw = raw[int(part)]
         elif isinstance(raw, dict):
-            raw = raw.get(part, {})
+            raw = raw if part.isdigit() else raw.get(part, {})
         else:
             return {}
     return raw

@@ -18,7 +18,8 @@ from .checks import check_aircraft
 from .core_data import assembled, fixed_parts
 from .mass import blade_mass
 from .number import Number, Numbers, Provenance
-from .schema import AircraftFile, Discretisation, Loading, Rotor
+from .schema import AircraftFile, Discretisation, Loading, Rotor, TailRotor
+from .span import Deck
 from .tables import TableFile
 
 if TYPE_CHECKING:
@@ -37,9 +38,12 @@ class SourceRow(NamedTuple):
 
 
 class Limits(NamedTuple):
-    """Stated limits of an aircraft: power [W], None where none is stated."""
+    """Stated limits of an aircraft, None where none is stated: power [W], torque of the main rotor's shaft [N m], lowest and
+    highest rotor speed [rad/s]."""
 
     power: float | None = None
+    torque: float | None = None
+    rotor_speed: tuple[float, float] | None = None
 
 
 HINGE_MODES = {"hinged": 2, "flapping": 1, "clamped": 0}
@@ -81,7 +85,7 @@ class Aircraft:
         if loading is not None:
             given = {key: value for key, value in spec.loadings[loading] if value is not None}
             chosen = spec.loading.model_copy(update=given)
-        parts = fixed_parts(spec)
+        parts = fixed_parts(spec, path)
         for name, value in (
             ("_spec", spec),
             ("_path", path),
@@ -140,6 +144,12 @@ class Aircraft:
     def rotor(self) -> Rotor:
         """Main rotor: `radius`, `omega`, `n_blades`, `blade.root_station`, `blade.root_cutout`, ... in SI."""
         return self._spec.rotor
+
+    @property
+    def rotors(self) -> dict[str, Rotor | TailRotor]:
+        """Rotors by their names in the file (`main`, `tail` where it gives none), the one with blades first."""
+        listed = (self._spec.rotor, self._spec.tail_rotor)
+        return {rotor.name: rotor for rotor in listed if rotor is not None}
 
     @property
     def loading(self) -> Loading:
@@ -225,7 +235,14 @@ class Aircraft:
     def limits(self) -> Limits:
         """What the file states of the aircraft's limits."""
         stated = self._spec.limits
-        return Limits() if stated is None else Limits(float(stated.power))
+        if stated is None:
+            return Limits()
+        speeds = stated.rotor_speed
+        return Limits(
+            None if stated.power is None else float(stated.power),
+            None if stated.torque is None else float(stated.torque),
+            None if speeds is None else (float(speeds[0]), float(speeds[1])),
+        )
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -300,7 +317,11 @@ def _row(key: str, value: Any) -> Iterator[SourceRow]:
     elif isinstance(value, dict):
         for name, entry in value.items():
             yield from _row(f"{key}.{name}", entry)
-    elif isinstance(value, Number | Numbers | TableFile):
+    elif isinstance(value, list) and value and isinstance(value[0], BaseModel):
+        # sections along the span: by their names where there are several
+        for entry in value:
+            yield from _row(f"{key}[{entry.name}]" if len(value) > 1 else key, entry)
+    elif isinstance(value, Number | Numbers | TableFile | Deck):
         yield from _row(key, value.provenance)
     elif isinstance(value, Provenance):
         yield SourceRow(key, value.value, value.unit, value.sources, value.confidence, value.note)

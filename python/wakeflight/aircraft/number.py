@@ -188,3 +188,18 @@ def vector(
         return Numbers(tuple(row(each, given) for each in values), provenance)
 
     return Annotated[Numbers, BeforeValidator(validate)]
+
+
+def numbers(si_unit: str, low: float = -math.inf, high: float = math.inf) -> Any:
+    """Type of one or more numbers of dimension `si_unit` within low..high (SI)."""
+    read = _reader(si_unit, low, high, None)
+    allowed = f"a table {{ value, unit, source, confidence }} with one or more numbers in {si_unit}"
+
+    def validate(entry: Any, info: ValidationInfo) -> Numbers:
+        provenance = provenance_of(entry, info, _KEYS, allowed)
+        values = provenance.value if isinstance(provenance.value, list) else [provenance.value]
+        if not values or values == [None]:
+            raise ValueError(f"must be {allowed}")
+        return Numbers(tuple(read(value, provenance.unit) for value in values), provenance)
+
+    return Annotated[Numbers, BeforeValidator(validate)]

@@ -14,14 +14,14 @@ import numpy as np
 
 from ..errors import InputError
 from ..units import STANDARD_GRAVITY, quantity
-from . import tables
-from .core_data import STRUCTURE_COLUMNS, blade_data, structure_data
+from .blade_data import blade_data
 from .core_data import lag_damper_data as damper
 from .load import SHIPPED, find, load_aircraft, parsed, validated
 from .model import HINGE_MODES, Aircraft, Settings, checked_discretisation
 from .rotor_checks import check_rotor, unused_on_a_stand
-from .rotor_file import UNSTATED, RotorFile, RotorGroup, written_out
-from .sections import check_sections
+from .rotor_file import UNSTATED, RotorFile, written_out
+from .span import check_span, span_data, tip_section
+from .versions import groups_of
 
 FINEST_DEFAULT_STEPS = 36
 """Fewest steps in a revolution where a file names no azimuth step (10 deg)."""
@@ -136,23 +136,24 @@ def _of_aircraft(aircraft: Aircraft) -> Rotor:
 
 
 def _of_file(path: Path) -> Rotor:
-    raw = parsed(path)
-    data = dict(raw)
+    written = groups_of(path, parsed(path))
+    data = dict(written.data)
     if isinstance(data.get("rotor"), dict):
         data["rotor"] = written_out(data["rotor"])
     if isinstance(data.get("sources", {}), dict):
         data["sources"] = {**data.get("sources", {}), "unstated": UNSTATED.model_dump()}
-    spec: RotorFile = validated(path, data, RotorFile, raw)
+    spec: RotorFile = validated(path, written._replace(data=data), RotorFile)
     group = spec.rotor
     core = {
         "n_blades": int(group.n_blades),
         "omega": float(group.omega),
+        "rotation": group.rotation,
         "position": [0.0, 0.0, 0.0],
         "shaft_tilt_forward": 0.0,
         "shaft_tilt_lateral": 0.0,
         "tip_loss_factor": 1.0 if group.tip_loss_factor is None else float(group.tip_loss_factor),
-        "blade": _blade(group),
-        "airfoil": {**_grids(group, path), "cd_increment": float(group.airfoil.cd_increment or 0.0)},
+        "blade": blade_data(group, path),
+        "airfoil": span_data(group.airfoil, float(group.radius), float(group.blade.root_cutout), path),
         "lag_damper": damper(group),
     }
     keys = {key for source in spec.sources.values() for key in source.references}
@@ -169,89 +170,11 @@ def _checked(spec: RotorFile, core: dict[str, Any], path: Path) -> list[str]:
     def refuse(key: str, value: object, allowed: str) -> InputError:
         return InputError.of(f"rotor.{key}", value, allowed, file=path)
 
-    def in_sections(name: str, value: object, allowed: str) -> InputError:
-        table = getattr(group.airfoil, name)
-        if isinstance(table, tables.TableFile):
-            return table.error(f"rotor.airfoil.{name}", value, allowed)
-        file = path if group.airfoil.c81 is None else group.airfoil.c81.path
-        return InputError.of(
-            f"rotor.airfoil.{'polar' if group.airfoil.polar else 'c81'} {name}", value, allowed, file=file
-        )
-
-    sections = {name: core["airfoil"][name] for name in ("cl", "cd", "cm")}
-    notes = [] if group.airfoil.c81 is None else list(group.airfoil.c81.notes)
-    increment = core["airfoil"]["cd_increment"]
-    notes += check_sections(sections, increment, in_sections, polar=group.airfoil.polar is not None)
     return [
-        *(f"rotor.airfoil: {text}" for text in notes),
-        *check_rotor(group, core["blade"], core["lag_damper"], sections, refuse),
+        *check_span(group.airfoil, core["airfoil"], path),
+        *check_rotor(group, core["blade"], core["lag_damper"], tip_section(core["airfoil"]), refuse),
         *unused_on_a_stand(group, spec.condition),
     ]
-
-
-def _grids(group: RotorGroup, path: Path) -> dict[str, Any]:
-    try:
-        return group.airfoil.grids()
-    except ValueError as reason:
-        raise reason if isinstance(reason, InputError) else InputError(f"{path}: rotor.airfoil: {reason}") from reason
-
-
-def _blade(group: RotorGroup) -> dict[str, Any]:
-    """Blade as the core reads it; what a rigid blade does not have is written as what it then means."""
-    blade = group.blade
-    filled = {
-        "pitch_axis_chord_fraction": 0.25,
-        "control_stiffness": 1.0,
-        "km1_over_ktheta": 0.0,
-        "ka_over_ktheta": 0.0,
-        "structural_damping_ratio": 0.0,
-        "delta3": 0.0,
-        "precone": 0.0,
-    }
-    values = {key: getattr(blade, key) if getattr(blade, key) is not None else zero for key, zero in filled.items()}
-    whole = SimpleNamespace(
-        root=blade.root,
-        root_station=blade.root_station,
-        root_cutout=blade.root_cutout,
-        geometry=blade.geometry,
-        structure=blade.structure,
-        straight_tip=blade.straight_tip,
-        **values,
-    )
-    rotor = SimpleNamespace(radius=group.radius, blade=whole)
-    structure = structure_data(rotor) if blade.flexible else _rigid_structure(group)
-    return {**blade_data(rotor, structure), "rigid": not blade.flexible}
-
-
-def _rigid_structure(group: RotorGroup) -> dict[str, list[float]]:
-    """Mass along a rigid blade; stiffness is of no account."""
-    blade, radius = group.blade, float(group.radius)
-    root = float(blade.root_station)
-    if blade.structure is not None:
-        table = blade.structure
-        table.refuse_unused(STRUCTURE_COLUMNS, zero_is_nothing=True)
-        r_in, r_out = table.column("r_in", "m", radius), table.column("r_out", "m", radius)
-        tables.ascending(table, "r_in", r_in)
-        mass = table.column("mass", "kg/m")
-        x_cg = table.column("x_cg", "m") if table.has("x_cg") else [0.0] * len(mass)
-        i_theta = table.column("I_theta_cg", "kg m") if table.has("I_theta_cg") else [0.0] * len(mass)
-        if min(mass) < 0.0 or min(i_theta) < 0.0:
-            raise table.error("mass", f"{min(mass):g} kg/m", "must not be negative")
-        r_in[0], r_out[-1] = min(r_in[0], root), max(r_out[-1], radius)
-        kept = [i for i in range(len(r_in)) if r_out[i] > root and r_in[i] < radius]
-        columns = {"r_in": r_in, "r_out": r_out, "mass": mass, "x_cg": x_cg, "i_theta": i_theta}
-        columns = {key: [values[i] for i in kept] for key, values in columns.items()}
-        columns["r_in"] = [max(each, root) for each in columns["r_in"]]
-        columns["r_out"] = [min(each, radius) for each in columns["r_out"]]
-    else:
-        uniform = 0.0
-        if blade.mass is not None:
-            uniform = float(blade.mass)
-        elif blade.flap_inertia is not None:
-            uniform = 3.0 * float(blade.flap_inertia) / (radius - root) ** 3
-        columns = {"r_in": [root], "r_out": [radius], "mass": [uniform], "x_cg": [0.0], "i_theta": [0.0]}
-    n = len(columns["mass"])
-    return {**columns, "ei_flap": [1.0] * n, "ei_lag": [1.0] * n, "gj": [1.0] * n}
 
 
 def _settings(spec: RotorFile, path: Path) -> Settings:

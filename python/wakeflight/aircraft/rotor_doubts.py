@@ -9,6 +9,8 @@ from typing import Any
 
 import numpy as np
 
+from .span import keys_of
+
 SEA_LEVEL_DENSITY = 1.225
 """Density [kg/m3] at which a file alone is judged."""
 
@@ -39,8 +41,11 @@ def doubts_of_rotor(group: Any, blade: dict[str, Any], damper: dict[str, Any] | 
     warnings = [*_twist(blade), *_inertia(group, blade), *_stiffness(group, blade), *_damper(damper, blade["radius"])]
     if blade["precone"] < 0.0:
         warnings.append("rotor.blade.precone: below 0; blades are coned up, the way lift bends them")
-    if group.airfoil.cd_increment is not None and group.airfoil.cd_increment < 0.0:
-        warnings.append("rotor.airfoil.cd_increment: below 0: it takes drag away")
+    warnings += [
+        f"{key}.cd_increment: below 0: it takes drag away"
+        for key, section in zip(keys_of(group.airfoil), group.airfoil, strict=True)
+        if section.increment < 0.0
+    ]
     return warnings
 
 

@@ -12,44 +12,13 @@ from __future__ import annotations
 import math
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_validator
+from pydantic import Field, model_validator
 
+from .blade_file import BladeGroup
+from .fields import DEG, Angle, Area, Condition, Fraction, Group, Length, Position, Rate, Rotation, Source, Station
 from .number import Noted, Weight, scalar, vector
+from .span import Section, along_span
 from .tables import Table
-
-_DEG = math.pi / 180.0
-
-Length = scalar("m", above=0.0, high=100.0)
-Offset = scalar("m", low=0.0, high=100.0)
-Position = vector("m", 3, low=-100.0, high=100.0)
-Station = scalar("m", low=-100.0, high=100.0)
-Angle = scalar("rad", low=-math.pi, high=math.pi)
-Rate = scalar("rad/s", above=0.0, high=1000.0)
-Area = scalar("m2", above=0.0, high=1000.0)
-Fraction = scalar("1", low=0.0, high=1.0)
-
-
-class Group(BaseModel):
-    """A group of an aircraft file: immutable, no unknown keys."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True, strict=True, arbitrary_types_allowed=True)
-
-
-class Source(Group):
-    """A source: what it is and how it was read, and its keys in the bibliography."""
-
-    text: Annotated[str, Field(min_length=1)]
-    references: list[str] = []
-
-
-class Condition(Group):
-    """A flight condition; in a named one, what is not given is that of `[condition]`."""
-
-    speed: scalar("m/s", low=0.0, high=260.0) | None = None
-    flight_path: scalar("rad", low=-math.pi / 2, high=math.pi / 2) | None = None
-    altitude: scalar("m", low=-500.0, high=11000.0) | None = None
-    weight: Weight | None = None
-    note: str = ""
 
 
 class Inertia(Group):
@@ -72,50 +41,32 @@ class Loading(Group):
     inertia: Inertia | None = None
 
 
-class Blade(Group):
-    """Blade: `root` hinged (flap and lag hinge at `root_station`) or clamped there; without `flexible` it turns rigidly."""
+class Blade(BladeGroup):
+    """Blade of an aircraft: nothing is left to a default but the kind of blade and what its hinges do not have."""
 
-    root: Literal["hinged", "clamped"]
     root_station: scalar("m", above=0.0, high=20.0)
-    root_cutout: Length
-    structure: Table
-    geometry: Table
     straight_tip: bool
     pitch_axis_chord_fraction: Fraction
-    control_stiffness: scalar("N m/rad", above=0.0, high=1e9)
-    km1_over_ktheta: Fraction
-    ka_over_ktheta: scalar("1", low=0.0, high=10.0)
-    structural_damping_ratio: scalar("1", low=0.0, high=0.5)
-    delta3: scalar("rad", low=-80 * _DEG, high=80 * _DEG)
-    precone: scalar("rad", low=-20 * _DEG, high=20 * _DEG)
-    flexible: bool = True
+    delta3: scalar("rad", low=-80 * DEG, high=80 * DEG)
+    precone: scalar("rad", low=-20 * DEG, high=20 * DEG)
 
     @model_validator(mode="after")
     def _moves(self) -> Blade:
         if self.root == "clamped" and not self.flexible:
-            raise ValueError(
-                "flexible = false: a rigid blade that is clamped does not move; in flight blades must flap"
-            )
+            raise ValueError("is rigid and clamped: it does not move; in flight blades must flap")
         return self
 
 
-class Airfoil(Group):
-    """Section tables along the whole span."""
+class Airfoil(Section):
+    """Section of an aircraft's blade: nothing is left to a default."""
 
-    name: str
-    cl: Table
-    cd: Table
-    cm: Table
     cd_increment: scalar("1", low=-0.1, high=0.1)
 
-
-def one_section(entry: object) -> object:
-    """Refuse a list of sections: the model takes one along the whole span."""
-    if isinstance(entry, list):
-        raise ValueError(
-            f"lists {len(entry)} sections; one section along the span is all there is: write one [rotor.airfoil]"
-        )
-    return entry
+    @model_validator(mode="after")
+    def _moment(self) -> Airfoil:
+        if self.cl is not None and self.cm is None:
+            raise ValueError("needs the table cm beside cl and cd")
+        return self
 
 
 class LagDamper(Group):
@@ -140,18 +91,20 @@ class LagDamper(Group):
 
 
 class Rotor(Group):
-    """Main rotor, counter-clockwise seen from above."""
+    """Main rotor."""
 
+    name: str = "main"
     hub: Position
     n_blades: scalar("1", low=2, high=8, whole=True)
     radius: Length
     omega: Rate
-    shaft_tilt_forward: scalar("rad", low=-30 * _DEG, high=30 * _DEG)
-    shaft_tilt_lateral: scalar("rad", low=-30 * _DEG, high=30 * _DEG)
+    rotation: Rotation = "ccw"
+    shaft_tilt_forward: scalar("rad", low=-30 * DEG, high=30 * DEG)
+    shaft_tilt_lateral: scalar("rad", low=-30 * DEG, high=30 * DEG)
     tip_loss_factor: scalar("1", low=0.8, high=1.0)
     swashplate_phase: Angle
     blade: Blade
-    airfoil: Annotated[Airfoil, BeforeValidator(one_section)]
+    airfoil: along_span(Airfoil)
     lag_damper: LagDamper | None = None
 
 
@@ -167,11 +120,12 @@ class Rigging(Group):
 class TailRotor(Group):
     """Tail rotor; thrust to the right and up by the cant."""
 
+    name: str = "tail"
     hub: Position
     radius: Length
     solidity: scalar("1", above=0.0, high=1.0)
     omega: Rate
-    cant: scalar("rad", low=-90 * _DEG, high=90 * _DEG)
+    cant: scalar("rad", low=-90 * DEG, high=90 * DEG)
     twist: Angle
     lift_curve_slope: scalar("1/rad", above=0.0, high=10.0)
     tip_loss_factor: scalar("1", low=0.5, high=1.0)
@@ -266,7 +220,15 @@ class Drive(Group):
 class Limits(Group):
     """What the aircraft may be flown to: told where a run goes beyond it, not enforced."""
 
-    power: scalar("W", above=0.0, high=1e8)
+    power: scalar("W", above=0.0, high=1e8) | None = None
+    torque: scalar("N m", above=0.0, high=1e7) | None = None
+    rotor_speed: vector("rad/s", 2, low=0.0, high=1000.0) | None = None
+
+    @model_validator(mode="after")
+    def _ascending(self) -> Limits:
+        if self.rotor_speed is not None and not self.rotor_speed[0] < self.rotor_speed[1]:
+            raise ValueError("rotor_speed must ascend: the lowest, then the highest")
+        return self
 
 
 class Discretisation(Group):
@@ -283,14 +245,13 @@ class Discretisation(Group):
 class AircraftFile(Group):
     """A whole aircraft file."""
 
-    format: Literal[1]
     name: Annotated[str, Field(min_length=1)]
     notes: str = ""
     sources: dict[str, Source]
     condition: Condition
-    conditions: dict[str, Condition] = {}
+    conditions: dict[str, Condition] = Field(default_factory=dict)
     loading: Loading
-    loadings: dict[str, Loading] = {}
+    loadings: dict[str, Loading] = Field(default_factory=dict)
     rotor: Rotor
     rigging: Rigging
     tail_rotor: TailRotor | None = None
@@ -301,7 +262,7 @@ class AircraftFile(Group):
     drive: Drive
     limits: Limits | None = None
     discretisation: Discretisation = Discretisation()
-    comparison: dict[str, Noted] = {}
+    comparison: dict[str, Noted] = Field(default_factory=dict)
 
     @model_validator(mode="after")
     def _complete(self) -> AircraftFile:

@@ -112,8 +112,8 @@ class TableFile:
             if header.startswith(("note", "source", "conf")) or len(set(cells)) == 1:
                 continue
             if header in ("airfoil", "section"):
-                one = "one section along the span is all there is"
-                raise self.error(header, ", ".join(dict.fromkeys(cells)), f"must be the same in every line: {one}")
+                several = "several sections are named by [[rotor.airfoil]] with their stations"
+                raise self.error(header, ", ".join(dict.fromkeys(cells)), f"must be the same in every line: {several}")
             raise self.error(header, cells[0], f"column of text that varies; {allowed}")
 
     def has(self, base: str) -> bool:

@@ -12,7 +12,7 @@ from typing import Annotated, Any, get_type_hints
 
 import typer
 
-from ..regime import described
+from ..options import described
 
 ManeuverName = Annotated[
     str, typer.Argument(metavar="MANEUVER", help="arrested-descent, roll-reversal, or a TOML file")
@@ -60,6 +60,10 @@ class Condition(Straight):
     sideslip: Annotated[str | None, typer.Option("--sideslip", help='wind from the right +, "5 deg"')] = None
     turn_rate: Annotated[str | None, typer.Option("--turn-rate", help='to the right +, "3 deg/s"')] = None
     bank: Annotated[str | None, typer.Option("--bank", help='to the right +, "10 deg"')] = None
+    load_factor: Annotated[float | None, typer.Option("--load-factor", help="of a turn whose rate is found, 1.5")] = (
+        None
+    )
+    turn: Annotated[str | None, typer.Option("--turn", help="direction of that turn: right, left")] = None
 
 
 @dataclass(frozen=True)
@@ -73,6 +77,12 @@ class Wake(Group):
         float | None, typer.Option("--wake-turns", help=f"turns of free wake; {described('turns')}")
     ] = None
     wake_scheme: Annotated[str | None, typer.Option("--wake-scheme", help="bdf2, pc2b, pcc")] = None
+    wake: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--wake", metavar="PRESET|NAME=VALUE", help="standard, paper, reference, or any option; repeatable"
+        ),
+    ] = None
 
 
 @dataclass(frozen=True)

@@ -4,11 +4,12 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError
+from .wake import typed_options
 
 if TYPE_CHECKING:
     from ..aircraft import Aircraft
@@ -60,9 +61,7 @@ def request(
         raise InputError.of("--blades", blades, f"the blades of {loaded.name} are rigid in its file")
     complete = condition_for(loaded, named=vehicle.condition, **given.given())
     loaded.core_data(complete)
-    model.step(loaded)
-    if hasattr(model, "core_options"):
-        model.resolved(flight_regime(loaded, complete)).core_options(loaded)
+    model.resolved(flight_regime(loaded, complete)).check_on(loaded)
     if flown is not None:
         flown = flown.for_aircraft(loaded.stick_travel_in, float(loaded.rotor.omega))
         flown.check_span(loaded.stick_travel_in)
@@ -70,14 +69,10 @@ def request(
     return Request(loaded, complete, model, folder, flown)
 
 
-OPTION_OF = {"azimuth_step": "azimuth_step", "wake_turns": "turns", "wake_scheme": "scheme"}
-"""Option of the inflow model by its name in `Wake`."""
-
-
 def inflow_from(name: str, wake: Wake, on_stand: bool = False, lenient: bool = False) -> Any:
     """The inflow model `name` with the options that were typed: the only place where arguments become a model.
 
-    lenient: leave out options the model does not have instead of refusing them.
+    lenient: leave out options that other models have instead of refusing them.
     """
     if on_stand:
         from ..tunnel import stand_inflow
@@ -87,15 +82,7 @@ def inflow_from(name: str, wake: Wake, on_stand: bool = False, lenient: bool = F
         from ..inflow import inflow_model
 
         model = inflow_model(name)
-    known = {field.name for field in fields(model)}
-    options = {}
-    for flag, value in wake.given().items():
-        option = OPTION_OF[flag]
-        if option in known:
-            options[option] = value
-        elif not lenient:
-            raise InputError.of(f"--{flag.replace('_', '-')}", value, f"not an option of --inflow {model.name}")
-    return replace(model, **options)
+    return replace(model, **typed_options(model.name, wake, lenient))
 
 
 def check_flight(revolutions: float | None, integrator: str) -> None:

@@ -3,12 +3,24 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Annotated
+
+import typer
 
 from . import outcome
-from .groups import Blades, Condition, InflowName, Run, Vehicle, Wake
+from .groups import Blades, Condition, Group, InflowName, Run, Vehicle, Wake
 from .request import request
+
+
+@dataclass(frozen=True)
+class Target(Group):
+    """What is met with a part of the path left free, as `wf.trim` takes it."""
+
+    power: Annotated[str | None, typer.Option("--power", help='of the engines; "0 hp" is autorotation')] = None
+    collective: Annotated[str | None, typer.Option("--collective", help='blade pitch at the root, "14 deg"')] = None
+    free: Annotated[str | None, typer.Option("--free", help="what is found for them: flight_path, speed")] = None
 
 
 def trim(
@@ -16,6 +28,7 @@ def trim(
     inflow: InflowName = "time-marching",
     vehicle: Vehicle,
     given: Condition,
+    target: Target,
     wake: Wake,
     blades: Blades = None,
     run: Run,
@@ -28,6 +41,6 @@ def trim(
 
     solve = outcome.keeping(solve, lambda found: outcome.save_trim(found, asked.out))
     with Progress() as progress:
-        start = solve(asked.aircraft, asked.condition, inflow=asked.inflow, progress=progress)
+        start = solve(asked.aircraft, asked.condition, inflow=asked.inflow, progress=progress, **target.given())
     print(start.table())
     outcome.save_trim(start, asked.out)

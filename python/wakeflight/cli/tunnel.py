@@ -44,6 +44,7 @@ class Stand(Group):
     torque: Annotated[str | None, typer.Option("--torque", help="find the collective for it; zero: autorotation")] = (
         None
     )
+    power: Annotated[str | None, typer.Option("--power", help='find the collective for shaft power, "1000 hp"')] = None
     flapping: Annotated[str | None, typer.Option("--flapping", help='find both cyclics: zero, "1.5 deg, -0.6 deg"')] = (
         None
     )

@@ -64,6 +64,27 @@ def power(engine: Any, limit: float | None, time: np.ndarray | None = None) -> M
     return Monitor("power at most", f"{most / 1e3:.0f} kW ({stated})", warning=warning)
 
 
+def torque(shaft: Any, limit: float | None, time: np.ndarray | None = None) -> list[Monitor]:
+    """Torque of the main rotor's shaft [N m], a number or (n_times,), where a limit is stated; none where it is not."""
+    if limit is None:
+        return []
+    most = float(np.max(shaft))
+    warning = None
+    if most > limit:
+        first = since(time, np.asarray(shaft) > limit)
+        warning = f"torque {most / 1e3:.2f} kN m, beyond the aircraft's {limit / 1e3:.2f} kN m{first}"
+    return [Monitor("torque at most", f"{most / 1e3:.2f} kN m (limit {limit / 1e3:.2f} kN m)", warning=warning)]
+
+
+def rotor_speed(omega: float, limits: tuple[float, float] | None) -> list[Monitor]:
+    """Rotor speed [rad/s] where the aircraft states the lowest and the highest; none where it does not."""
+    if limits is None:
+        return []
+    stated = f"{omega:.4g} rad/s (limits {limits[0]:.4g} to {limits[1]:.4g})"
+    outside = not limits[0] <= omega <= limits[1]
+    return [Monitor("rotor speed", stated, warning=f"rotor speed {stated}: outside" if outside else None)]
+
+
 def tail_rotor(loading: float | None, limit: float, ring: str | None = None) -> Monitor:
     """C_T/sigma of the tail rotor, whose thrust formula knows no stall, against `limit`; None without a tail rotor.
 

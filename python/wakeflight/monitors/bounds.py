@@ -121,7 +121,9 @@ def bounds(
     named = 0.0 if wake.core_stretching else released
     core = max(named, max(wake.station_core_floor, THINNEST_CORE) * float(chord.min()))
     # thin sections lift by 2 pi sin(alpha) and have no stall
-    lift_max = 2.0 * np.pi if thin_sections else largest(tables["airfoil"]["cl"]["values"])
+    lift_max = (
+        2.0 * np.pi if thin_sections else max(largest(table["cl"]["values"]) for table in tables["airfoil"]["tables"])
+    )
     return Bounds(rotor["n_blades"], rotor["omega"], radius, speed_of_sound, station, chord, twist, lift_max, core)
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ..limits import StallAngles, in_vortex_ring, reversed_flow, stalled
+from ..limits import StallAlongSpan, StallAngles, in_vortex_ring, reversed_flow, stalled
 from .monitor import Monitor, Places, since
 
 STALLED_SHARE = 0.05
@@ -82,7 +82,7 @@ def angle_of_attack(alpha: np.ndarray, places: Places) -> Monitor:
 
 
 def stall(
-    angles: StallAngles,
+    angles: StallAngles | StallAlongSpan,
     alpha: np.ndarray,
     mach: np.ndarray,
     weights: np.ndarray,

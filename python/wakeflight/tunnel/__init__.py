@@ -53,6 +53,7 @@ def tunnel(
     thrust: Any = None,
     ct: float | None = None,
     torque: Any = None,
+    power: Any = None,
     flapping: Any = None,
     hub_roll: Any = None,
     hub_pitch: Any = None,
@@ -77,10 +78,10 @@ def tunnel(
     ----------
     aircraft : the rotor: a loaded `Rotor` or `Aircraft`, the name of a shipped aircraft, or the path of a rotor file or an
         aircraft file. It turns counter-clockwise seen from above.
-    collective : blade pitch at `collective_at`. Where neither collective, thrust, ct nor torque is given, thrust is the weight
-        that the aircraft (or the rotor file's `[condition]`) names, else C_T/sigma = 0.07; and where cyclic pitch, flapping
-        and hub moments are open too and there is a wind across the shaft, flapping is zero (hub moments, where clamped rigid
-        blades cannot flap). What was assumed is in `.assumed`, the table and the attributes.
+    collective : blade pitch at `collective_at`. Where neither collective, thrust, ct, torque nor power is given, thrust is the
+        weight that the aircraft (or the rotor file's `[condition]`) names, else C_T/sigma = 0.07; and where cyclic pitch,
+        flapping and hub moments are open too and there is a wind across the shaft, flapping is zero (hub moments, where
+        clamped rigid blades cannot flap). What was assumed is in `.assumed`, the table and the attributes.
     speed, shaft_angle : wind from the front, and tilt of the shaft, positive aft (disk met from below, as in descent);
         +90 deg is axial descent, -90 deg axial climb.
     inflow : `time-marching`, `relaxation`, `dynamic`, `annular` (hover and axial climb: blade elements and momentum ring by
@@ -94,8 +95,8 @@ def tunnel(
         of the blade at its own azimuth (a swashplate phase does not enter); 0 where a collective, thrust, ct or torque is
         given and nothing is asked of flapping or hub moments.
     higher_harmonics : list of (order, cosine, sine) or {"order", "amplitude", "phase"}: amplitude cos(order psi - phase).
-    thrust, ct, torque : find the collective for aerodynamic thrust along the shaft, its coefficient, or shaft torque
-        (torque="zero": autorotation at the given rotor speed).
+    thrust, ct, torque, power : find the collective for aerodynamic thrust along the shaft, its coefficient, shaft torque
+        (torque="zero": autorotation at the given rotor speed), or shaft power.
     flapping : find both cyclics for `zero` first-harmonic flapping (first flap mode), or a pair (beta_1c, beta_1s).
     hub_roll, hub_pitch : find both cyclics for mean hub moments, right side down and nose up positive.
     omega, rpm : rotor speed, as text with a unit or as a number of revolutions per minute; the rotor's own.
@@ -217,7 +218,7 @@ def _compiled(
 ) -> tuple[StandModel, StandModel | None]:
     """The rotor with dynamic inflow, and with the free wake where that is asked for."""
     dynamic = model
-    if not isinstance(model, DynamicInflow):
+    if not model.is_dynamic:
         dynamic = DynamicInflow(n_stations=model.n_stations, azimuth_step=None)
     try:
         windmill = dynamic is model

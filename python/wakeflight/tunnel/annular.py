@@ -8,9 +8,10 @@ import numpy as np
 from .. import _core
 from ..errors import InputError, NumericalFailure
 from ..progress import Progress, Silent
+from ..trim_equations import inflow_of_states, without_inflow
 from .condition import StandCondition
 from .model import StandModel
-from .solve import Solution, dynamic_map, largest_change, solve_equations
+from .solve import Solution, largest_change, solve_equations
 
 REST = 1e-10
 """Change of inflow, pitch controls and blade harmonics between passes at which the two agree."""
@@ -28,8 +29,8 @@ def check_axial(condition: StandCondition, tip_speed: float) -> None:
 
 def on_annuli(model: StandModel, start: Solution, progress: Progress | Silent) -> Solution:
     """Blade motion and the inflow of the rings in turn until both rest, from the solution with dynamic inflow."""
-    inflow_map = dynamic_map(start.model, start.problem, start.x, model.steps_per_revolution)
-    x = np.delete(start.x, slice(3, 6))
+    inflow_map = inflow_of_states(start.model, start.problem, start.x, model.steps_per_revolution)
+    x = without_inflow(start.model, start.problem, start.x)
     for turn in range(MAX_PASSES):
         problem = model.problem(inflow_map)
         before, x = x, solve_equations(model, problem, x)
@@ -48,7 +49,7 @@ def on_annuli(model: StandModel, start: Solution, progress: Progress | Silent) -
     return Solution(model, problem, x, inflow_map, circulation)
 
 
-def inflow_of_rings(model: StandModel, problem: _core.StandProblem, x: np.ndarray) -> np.ndarray:
+def inflow_of_rings(model: StandModel, problem: _core.TrimProblem, x: np.ndarray) -> np.ndarray:
     """Induced inflow lambda (n_stations,) at which each ring carries the lift of its blade elements.
 
     N_b Omega Gamma = 4 pi F lambda |lambda + lambda_c| (Omega R)^2, Gamma the mean circulation over the revolution at the

@@ -17,7 +17,7 @@ from ..units import quantity, shown
 BLADE_LOADING = 0.07
 """C_T/sigma of a rotor of which nothing is asked and whose file names no weight: that of cruise, well below stall."""
 
-HEADS = ("collective", "thrust", "ct", "torque")
+HEADS = ("collective", "thrust", "ct", "torque", "power")
 """What fixes the collective, one of them."""
 CYCLICS = ("lateral_cyclic", "longitudinal_cyclic", "flapping", "hub_roll", "hub_pitch")
 """What fixes the cyclic pitch."""
@@ -171,14 +171,13 @@ def filled(
 def control_equations(rotor: Rotor, density: float, omega: float, asked: dict[str, Any]) -> tuple:
     """The three equations (name, SI value) that the pitch controls are found from.
 
-    asked: collective, collective_at, lateral_cyclic, longitudinal_cyclic, thrust, ct, torque, flapping, hub_roll, hub_pitch.
+    asked: collective, collective_at, lateral_cyclic, longitudinal_cyclic, thrust, ct, torque, power, flapping, hub_roll,
+    hub_pitch.
     """
     limit = math.radians(90.0)
     heads = [name for name in HEADS if asked[name] is not None]
     if len(heads) > 1:
-        raise InputError.of(
-            heads[1], asked[heads[1]], f"give one of collective, thrust, ct, torque; {heads[0]} is given"
-        )
+        raise InputError.of(heads[1], asked[heads[1]], f"give one of {', '.join(HEADS)}; {heads[0]} is given")
     if asked["collective"] is None and asked["collective_at"] != "root":
         raise InputError.of("collective_at", asked["collective_at"], "belongs to a collective, and none is given")
     area = math.pi * rotor.radius**2
@@ -191,6 +190,8 @@ def control_equations(rotor: Rotor, density: float, omega: float, asked: dict[st
     elif asked["torque"] is not None:
         text = asked["torque"]
         first = ("torque", 0.0 if text == "zero" else quantity(text, "N m", "torque"))
+    elif asked["power"] is not None:
+        first = ("torque", quantity(asked["power"], "W", "power") / omega)
     else:
         pitch = within("collective", asked["collective"], "rad", -limit, limit, "deg")
         first = ("collective", pitch - _reference_twist(rotor, asked["collective_at"]))

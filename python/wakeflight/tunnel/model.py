@@ -11,10 +11,9 @@ import numpy as np
 
 from .. import _core
 from ..aircraft import Rotor
-from ..errors import InputError
-from ..inflow import MODELS, AnnularInflow, DynamicInflow, InflowModel, TimeMarchingWake, inflow_model
-from ..model import CompiledRotor
-from ..trim_equations import resample
+from ..inflow import STAND_MODELS, AnnularInflow, InflowModel, inflow_model
+from ..model import CompiledRotor, Question
+from ..trim_equations import trim_problem
 from ..units import STANDARD_GRAVITY
 from .condition import StandCondition
 
@@ -24,12 +23,7 @@ StandInflow = InflowModel | AnnularInflow
 
 def stand_inflow(inflow: str | StandInflow) -> StandInflow:
     """Model from its name, or the configured model itself."""
-    if inflow == AnnularInflow.name or isinstance(inflow, AnnularInflow):
-        return inflow if isinstance(inflow, AnnularInflow) else AnnularInflow()
-    if isinstance(inflow, str) and inflow not in MODELS:
-        allowed = ", ".join([*MODELS, AnnularInflow.name])
-        raise InputError.of("inflow", inflow, f"allowed: {allowed}, or a configured model")
-    return inflow_model(inflow)
+    return inflow_model(inflow, STAND_MODELS)
 
 
 @dataclass(frozen=True)
@@ -70,7 +64,7 @@ class StandModel(CompiledRotor):
             condition.density,
             condition.speed_of_sound,
             STANDARD_GRAVITY,
-            not isinstance(inflow, DynamicInflow),
+            not inflow.is_dynamic,
             d.n_elements,
             d.n_modes,
             d.n_gauss,
@@ -79,19 +73,19 @@ class StandModel(CompiledRotor):
             list(condition.higher),
             blade_model,
             windmill,
+            condition.velocity,
+            condition.rates,
         )
         return cls(rotor, condition, inflow, core, n_harmonics, blade_model, windmill)
 
-    def problem(self, inflow_map: np.ndarray | None) -> _core.StandProblem:
+    @property
+    def question(self) -> Question:
+        """What the pitch controls are found from."""
+        return Question(tuple((name, (value,)) for name, value in self.condition.controls))
+
+    def problem(self, inflow_map: np.ndarray | None) -> _core.TrimProblem:
         """The equations on a held inflow map (n_azimuths, n_stations), or with dynamic inflow."""
-        n = self.steps_per_revolution if inflow_map is None else inflow_map.shape[0]
-        # at least four azimuths per highest harmonic
-        fine = n * int(np.ceil(4 * max(self.n_harmonics, 1) / n))
-        if inflow_map is not None and fine > n:
-            inflow_map = resample(inflow_map, fine)
-        c = self.condition
-        higher, controls = list(c.higher), list(c.controls)
-        return _core.StandProblem(c.velocity, c.rates, controls, higher, self.n_harmonics, fine, inflow_map)
+        return trim_problem(self, inflow_map, self.n_harmonics)
 
     @property
     def rotor_tables(self) -> dict[str, Any]:
@@ -116,14 +110,14 @@ class StandModel(CompiledRotor):
     @property
     def is_dynamic(self) -> bool:
         """Whether the inflow has states of its own: no map of it is held."""
-        return isinstance(self.inflow, DynamicInflow)
+        return self.inflow.is_dynamic
 
     @property
     def is_annular(self) -> bool:
         """Whether every ring of the disk has its own momentum."""
-        return isinstance(self.inflow, AnnularInflow)
+        return self.inflow.is_annular
 
     @property
     def is_marching(self) -> bool:
         """Whether the wake marches in time."""
-        return isinstance(self.inflow, TimeMarchingWake)
+        return self.inflow.is_marching

@@ -5,9 +5,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..limits import stall_angles
+from ..limits import stall_along_span, table_end
 from ..monitors import Monitor, Places, rotor
-from ..trim_monitors import closest_vortex, table_end
+from ..trim_monitors import closest_vortex
 from .solved import Solved
 
 
@@ -24,7 +24,7 @@ def monitors(stand: Solved) -> tuple[Monitor, ...]:
     section = model.bounds.section(velocity, theta)
     fastest = model.bounds.mach(np.linalg.norm(condition.velocity), np.linalg.norm(condition.rates), section)
     tip_mach = model.tip_speed / model.speed_of_sound
-    stalled = rotor.stall(stall_angles(tables), alpha, mach, model.area_weights, tip_mach, places)
+    stalled = rotor.stall(stall_along_span(tables, model.stations), alpha, mach, model.area_weights, tip_mach, places)
     mu, mu_z = condition.mu(model.tip_speed), condition.mu_z(model.tip_speed)
     found = [
         rotor.induced_velocity(inflow, usual, bound, places),

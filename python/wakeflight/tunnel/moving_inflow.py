@@ -62,7 +62,7 @@ class StatesOfInflow:
     """lambda_0, lambda_s, lambda_c from the stand's steady ones, driven by the loads of all blades at the instant."""
 
     def __init__(self, model: StandModel, solution: Solution) -> None:
-        _, i = model.core.trim_layout(solution.problem)
+        i = model.core.trim_layout(solution.problem).inflow
         self.model = model
         self.states = solution.x[i : i + 3].copy()
         self.n, self.step_index = model.steps_per_revolution, 0

@@ -176,7 +176,7 @@ class Solved:
     @cached_property
     def flapping(self) -> tuple[float, float, float]:
         """beta_0, beta_1c, beta_1s of the first flap mode [rad]."""
-        modes, _ = self.model.core.trim_layout(self.solution.problem)
+        modes = self.model.core.trim_layout(self.solution.problem).modes
         if len(modes) == 1:
             return 0.0, 0.0, 0.0
         start, scale = modes[self.model.rotor["flap_mode"]], self.model.rotor["flap_per_coordinate"]

@@ -7,4 +7,3 @@ pub mod rates;
 pub mod residual;
 pub mod state;
 pub mod trim;
-pub mod trim_jacobian;

@@ -189,15 +189,12 @@ impl Airframe {
     }
 
     /// Stabilator incidence in trim: the schedule at this true airspeed, or the fixed incidence [rad].
-    pub fn trim_incidence<S: Real>(&self, speed: f64, density: f64, collective: S, pitch_rate: S) -> S {
+    pub fn trim_incidence<S: Real>(&self, speed: S, density: f64, collective: S, pitch_rate: S) -> S {
         match (&self.stabilator_schedule, &self.stabilator) {
             (Some(schedule), _) => {
-                let equivalent = speed * (density / SEA_LEVEL_DENSITY).sqrt() / KNOT;
-                schedule.incidence(
-                    S::cst(equivalent),
-                    collective * (100.0 / schedule.collective_travel),
-                    pitch_rate,
-                )
+                let root = (density / SEA_LEVEL_DENSITY).sqrt();
+                let equivalent = speed.chain(speed.re() * root / KNOT, root / KNOT);
+                schedule.incidence(equivalent, collective * (100.0 / schedule.collective_travel), pitch_rate)
             }
             (None, Some(surface)) => S::cst(surface.incidence),
             (None, None) => S::zero(),

@@ -1,7 +1,7 @@
 //! Mass and stiffness matrix of the rotating blade about its straight, twisted, undeformed shape.
 //!
 //! Second variation of strain energy minus kinetic energy in the rotating frame, centrifugal potential included;
-//! without gyroscopic terms, lag spring, lag damper, air.
+//! hinge springs included; without gyroscopic terms, lag damper and its spring, air.
 
 use super::beam::Mesh;
 use super::inertia::{DV, DW, N_LOCAL, PHI, SectionInertia, U, V, W, section_inertia};
@@ -27,7 +27,8 @@ pub struct Matrices {
 impl Matrices {
     /// Integrals over the blade at rotor speed `omega` [rad/s] and root pitch `reference_pitch` [rad].
     ///
-    /// Strain energy 1/2 int EI_flap k_f^2 + EI_lag k_l^2 + GJ phi'^2 dx + 1/2 K phi(root)^2 with
+    /// Strain energy 1/2 int EI_flap k_f^2 + EI_lag k_l^2 + GJ phi'^2 dx + 1/2 K phi(root)^2 + 1/2 K_flap w'(root)^2
+    /// + 1/2 K_lag v'(root)^2 with
     /// k_f = w'' cos th - v'' sin th, k_l = v'' cos th + w'' sin th, th = reference pitch + twist.
     /// Axial shift u = -1/2 int v'^2 + w'^2 + k_A^2 (phi'^2 + 2 th_tw' phi') dx: its quadratic part carries the tension
     /// T(x) = int_x^R (dT0/du) dx, its linear part (tension-twist coupling) enters the section's inertia.
@@ -83,6 +84,9 @@ impl Matrices {
         }
         let root_twist = mesh.first_twist();
         matrices.stiffness[(root_twist, root_twist)] += properties.control_stiffness;
+        let (lag_hinge, flap_hinge) = (1, mesh.first_flap() + 1);
+        matrices.stiffness[(lag_hinge, lag_hinge)] += properties.lag_spring;
+        matrices.stiffness[(flap_hinge, flap_hinge)] += properties.flap_spring;
         matrices
     }
 

@@ -35,6 +35,9 @@ pub enum BladeError {
         /// Entries of the table's first list.
         expected: usize,
     },
+    /// The blades of a rotor that turns clockwise.
+    #[error("rotor.rotation = cw: only counter-clockwise rotors (ccw) can be simulated")]
+    Clockwise,
     /// The structural table leaves part of the blade open.
     #[error("blade.structure leaves {from} m to {to} m open, within root_station..radius")]
     NotCovered {

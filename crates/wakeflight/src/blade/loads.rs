@@ -10,7 +10,7 @@ use super::kinematics::{BladeAxes, ModalMotion, PitchMotion, SectionMotion, comb
 use super::model::{AeroStation, Blade, StructuralPoint};
 use super::strain::add_strain_gradient;
 use super::thin_section::ThinSection;
-use crate::airfoil::Airfoil;
+use crate::airfoil::span::StationAirfoils;
 use crate::numerics::frames::{Hub, Vec3};
 use crate::numerics::scalar::Real;
 
@@ -111,8 +111,8 @@ impl<S: Real> BladeLoads<S> {
 /// What surrounds a blade and turns it.
 #[derive(Clone, Copy, Debug)]
 pub struct BladeEnvironment<'a> {
-    /// Section tables.
-    pub airfoil: &'a Airfoil,
+    /// Section table of every station.
+    pub airfoils: &'a StationAirfoils,
     /// Air.
     pub air: Air,
     /// Rotor speed [rad/s].
@@ -429,7 +429,7 @@ impl Blade {
         let wind = -(carrier.velocity + carrier.omega.cross(m.position) + m.velocity)
             - carrier.up * (lambda * tip_speed);
         let omega = carrier.omega + m.omega;
-        let (airfoil, air, geometry) = (environment.airfoil, &environment.air, &station.geometry);
+        let (airfoil, air, geometry) = (environment.airfoils.at(j), &environment.air, &station.geometry);
         let thin = match inflow {
             BladeInflow::ThreeQuarter { law, .. } => Some((law, wind)),
             BladeInflow::TwoLines { law, quarter, three_quarter } => {
@@ -481,7 +481,7 @@ impl Blade {
         }
     }
 
-    /// Pitch-link spring and structural damping.
+    /// Pitch-link spring, hinge springs and structural damping.
     #[inline(always)]
     fn add_root_loads<S: Real>(&self, modal: &ModalMotion<S>, work: &mut [S; MAX_MODES]) {
         let wind_up = combine(&self.root_twist, &modal.q, self.n_modes);
@@ -489,5 +489,6 @@ impl Blade {
             work[i] -=
                 wind_up * (self.control_stiffness * self.root_twist[i]) + modal.q_dot[i] * self.damping[i];
         }
+        self.hinge_springs.add_work(&self.root, self.n_modes, &modal.q, work);
     }
 }

@@ -4,6 +4,7 @@ pub mod assembly;
 pub mod beam;
 pub mod error;
 pub mod hermite;
+pub mod hinge;
 pub mod inertia;
 pub mod jet;
 pub mod kinematics;

@@ -3,6 +3,7 @@
 use super::MAX_MODES;
 use super::aerodynamics::StationGeometry;
 use super::error::BladeError;
+use super::hinge::HingeSprings;
 use super::kinematics::StationShapes;
 use super::modes::BladeModes;
 use super::quadrature::gauss_points;
@@ -76,6 +77,8 @@ pub struct Blade {
     pub root_twist: [f64; MAX_MODES],
     /// Root torsion spring [N m/rad].
     pub control_stiffness: f64,
+    /// Springs at the hinges.
+    pub hinge_springs: HingeSprings,
     /// Structural damping per modal rate, 2 zeta omega; zero on hinge modes [1/s].
     pub damping: [f64; MAX_MODES],
     /// Fixed flap rotation [rad].
@@ -130,6 +133,7 @@ impl Blade {
             tip: shaper.at(properties.radius),
             root_twist,
             control_stiffness: properties.control_stiffness,
+            hinge_springs: HingeSprings { flap: properties.flap_spring, lag: properties.lag_spring },
             damping,
             precone: properties.precone,
             root_station: properties.root_station,

@@ -52,7 +52,7 @@ pub struct ShapesAt {
 /// Natural modes of the undeformed rotating blade at one root pitch, ascending in frequency.
 ///
 /// Flap, lag and torsion coupled by pitch, twist and centre of gravity; with centrifugal stiffening and tension-twist
-/// coupling; without gyroscopic terms, lag spring, lag damper, air. Shapes are mass-normalised (modal mass 1 kg); the
+/// coupling and hinge springs; without gyroscopic terms, lag damper and its spring, air. Shapes are mass-normalised (modal mass 1 kg); the
 /// motion with the largest share of kinetic energy is positive at the tip (lead forward, flap up, nose up).
 #[derive(Clone, Debug)]
 pub struct BladeModes {

@@ -192,8 +192,13 @@ impl Blade {
             let wind_n = at_n * cosine - at_c * sine;
             let quarter_n = wind_n - pitch_rate * geometry.quarter;
             let three_quarter_n = wind_n - pitch_rate * geometry.three_quarter;
-            let flow =
-                section_flow(environment.airfoil, &environment.air, wind_c, quarter_n, three_quarter_n);
+            let flow = section_flow(
+                environment.airfoils.at(j),
+                &environment.air,
+                wind_c,
+                quarter_n,
+                three_quarter_n,
+            );
             let coefficients = [flow.cl, flow.cd, flow.cm];
             let Strengths { lift, drag, about_quarter } =
                 section_strengths(&environment.air, geometry, flow.speed, pitch_rate, coefficients);

@@ -71,6 +71,12 @@ pub struct BladeProperties {
     pub delta3: f64,
     /// Fixed flap rotation of the blade [rad].
     pub precone: f64,
+    /// Spring about the flap hinge, neutral along the precone [N m/rad].
+    #[serde(default)]
+    pub flap_spring: f64,
+    /// Spring about the lag hinge, neutral straight out [N m/rad].
+    #[serde(default)]
+    pub lag_spring: f64,
     /// Whether the blade keeps its shape: it moves about its hinges alone, or not at all where it is clamped.
     #[serde(default)]
     pub rigid: bool,
@@ -147,6 +153,20 @@ impl BladeProperties {
         value("km1_over_ktheta", split, "from 0 to 1", (0.0..=1.0).contains(&split))?;
         let ka = self.ka_over_ktheta;
         value("ka_over_ktheta", ka, "not negative", ka >= 0.0)?;
+        let (flap, lag) = (self.flap_spring, self.lag_spring);
+        let [no_flap_hinge, no_lag_hinge] = [self.root == Root::Clamped, self.root != Root::Hinged];
+        value(
+            "flap_spring",
+            flap,
+            "not negative, and zero without a flap hinge",
+            flap == 0.0 || (flap > 0.0 && !no_flap_hinge),
+        )?;
+        value(
+            "lag_spring",
+            lag,
+            "not negative, and zero without a lag hinge",
+            lag == 0.0 || (lag > 0.0 && !no_lag_hinge),
+        )?;
         value("delta3", self.delta3, "below a right angle", self.delta3.abs() < FRAC_PI_2)?;
         value("precone", self.precone, "below a right angle", self.precone.abs() < FRAC_PI_2)?;
         check_table("twist.x", "twist.y", &self.twist)?;

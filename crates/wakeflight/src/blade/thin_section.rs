@@ -28,25 +28,11 @@ pub enum SectionLift {
 /// The law of a section that meets the air at three quarters of the chord.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ThinSection {
-    /// Angle of attack without lift [rad].
-    pub zero_lift: f64,
     /// Where the lift comes from.
     pub lift: SectionLift,
 }
 
 impl ThinSection {
-    /// The law of an airfoil: its zero-lift angle at a low Mach number.
-    pub fn of(airfoil: &Airfoil, lift: SectionLift) -> Self {
-        const LOW_MACH: f64 = 0.3;
-        let cl = |alpha: f64| airfoil.coefficients::<f64>(alpha, LOW_MACH).0;
-        let (mut low, mut high) = (-15f64.to_radians(), 15f64.to_radians());
-        for _ in 0..60 {
-            let middle = 0.5 * (low + high);
-            if cl(middle) < 0.0 { low = middle } else { high = middle }
-        }
-        Self { zero_lift: 0.5 * (low + high), lift }
-    }
-
     /// Air loads of a section: `wind` at the quarter chord, `wind_three_quarter` at three quarters (both relative to the
     /// point of the elastic axis, blade axes).
     ///
@@ -97,7 +83,8 @@ impl ThinSection {
                 );
             }
         };
-        let (s0, c0) = self.zero_lift.sin_cos();
+        let zero_lift = airfoil.zero_lift();
+        let (s0, c0) = zero_lift.sin_cos();
         let normal = three_quarter_n * c0 + three_quarter_c * s0;
         let ahead = if three_quarter_c.re() <= 0.0 { 1.0 } else { -1.0 };
         let factor = if prandtl_glauert && mach_there.re() < FACTOR_LIMIT {
@@ -109,7 +96,7 @@ impl ThinSection {
         };
         let circulation = normal * factor * (PI * station.chord * ahead);
         let cl = circulation * 2.0 / (speed * station.chord);
-        let alpha = cl / (factor * (2.0 * PI)) + self.zero_lift;
+        let alpha = cl / (factor * (2.0 * PI)) + zero_lift;
         let (_, cd, cm) = airfoil.coefficients(alpha, mach);
         section_loads(air, station, motion, wind_c, quarter_n, speed, omega, alpha, mach, [cl, cd, cm])
     }

@@ -1,3 +1,6 @@
-//! Inflow models that have states, and means over the disk.
+//! Inflow models that have states, options of those without a wake, and means over the disk.
 pub mod disk;
+pub mod options;
 pub mod pitt_peters;
+
+pub use options::{AnnularOptions, TipLoss};

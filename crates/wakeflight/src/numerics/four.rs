@@ -99,6 +99,11 @@ mod x86 {
             (Self::of([a.0, b.0, c.0, d.0]), Self::of([a.1, b.1, c.1, d.1]))
         }
         #[inline(always)]
+        fn asin(self) -> Self {
+            let v = self.values();
+            Self::of([v[0].asin(), v[1].asin(), v[2].asin(), v[3].asin()])
+        }
+        #[inline(always)]
         fn atan2(self, x: Self) -> Self {
             let (y, x) = (self.values(), x.values());
             Self::of([y[0].atan2(x[0]), y[1].atan2(x[1]), y[2].atan2(x[2]), y[3].atan2(x[3])])
@@ -205,7 +210,7 @@ mod tests {
 
     fn expression<S: Real>(x: S, y: S) -> S {
         let (s, c) = (x * y).sin_cos();
-        (s - c * 0.3) / (x.squared() + 1.5).sqrt() + y / (x * 2.0 - 0.1)
+        (s - c * 0.3) / (x.squared() + 1.5).sqrt() + y / (x * 2.0 - 0.1) + (s * 0.5).asin()
     }
 
     struct Both([f64; 4], [f64; 4]);

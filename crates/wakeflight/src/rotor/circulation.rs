@@ -84,7 +84,7 @@ impl Rotor {
     ) {
         for (j, wind) in winds.iter().enumerate() {
             // a station's circulation depends on its own inflow alone
-            let gamma = wind.circulation(&self.airfoil, &air, Dual::<1>::variable(lambda[j], 0));
+            let gamma = wind.circulation(self.airfoils.at(j), &air, Dual::<1>::variable(lambda[j], 0));
             (circulation[j], slope[j]) = (gamma.re, gamma.eps[0]);
         }
     }
@@ -130,6 +130,28 @@ impl Rotor {
         );
     }
 
+    /// Refuses the options of another rotor's wake; the reference chord is not the blade's to know.
+    fn check_wake(&self, options: &WakeOptions) -> Result<(), WakeError> {
+        let (wake, first) = (&options.rotor, &self.blade.stations[0]);
+        let root_cutout = first.shapes.x - 0.5 * first.geometry.width;
+        let numbers = [
+            ("n_blades", wake.n_blades as f64, self.n_blades as f64),
+            ("radius", wake.radius, self.blade.radius),
+            ("root_cutout", wake.root_cutout, root_cutout),
+            ("hinge_offset", wake.hinge_offset, self.hinge()),
+            ("omega", wake.omega, self.omega),
+            ("n_stations", options.n_stations as f64, self.blade.stations.len() as f64),
+        ];
+        match numbers.into_iter().find(|(_, given, own)| (given - own).abs() > 1e-9 * own.abs().max(1.0)) {
+            None => Ok(()),
+            Some((field, given, own)) => Err(WakeError::InvalidOption {
+                field,
+                value: given.to_string(),
+                allowed: format!("must be {own}, that of the rotor"),
+            }),
+        }
+    }
+
     /// Induction of a blade's own near wake, at the azimuth and the angles of `state`.
     pub fn near_wake(
         &self,
@@ -137,6 +159,7 @@ impl Rotor {
         hub: &WakeHub,
         state: &BladeState,
     ) -> Result<NearWake, WakeError> {
+        self.check_wake(options)?;
         let bound_line = near_wake_matrix(options, hub, state)?;
         let three_quarter = match self.thin {
             Some(_) => {

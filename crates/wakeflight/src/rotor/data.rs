@@ -1,8 +1,9 @@
 //! A rotor as the data describe it.
 
-use crate::airfoil::Airfoil;
+use crate::airfoil::span::SpanSections;
 use crate::blade::section::BladeProperties;
 use crate::rotor::lag_damper::LagDamper;
+use crate::rotor::sense::Sense;
 use serde::Deserialize;
 
 /// Main rotor.
@@ -11,8 +12,11 @@ use serde::Deserialize;
 pub struct RotorData {
     /// Number of blades.
     pub n_blades: usize,
-    /// Rotor speed [rad/s], counter-clockwise seen from above.
+    /// Rotor speed [rad/s], positive in the sense of `rotation`.
     pub omega: f64,
+    /// Sense of rotation; counter-clockwise where none is given.
+    #[serde(default)]
+    pub rotation: Sense,
     /// Hub centre from the body origin [m], body axes.
     pub position: [f64; 3],
     /// Shaft tilt forward [rad].
@@ -23,8 +27,8 @@ pub struct RotorData {
     pub tip_loss_factor: f64,
     /// Blade.
     pub blade: BladeProperties,
-    /// Section tables along the whole span.
-    pub airfoil: Airfoil,
+    /// Section tables along the span.
+    pub airfoil: SpanSections,
     /// Lag damper, where the blade has one.
     pub lag_damper: Option<LagDamper>,
 }

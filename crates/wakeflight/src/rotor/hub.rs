@@ -2,8 +2,9 @@
 
 use super::data::RotorData;
 use super::lag_damper::LagDamper;
+use super::sense::Sense;
 use super::swashplate::Rigging;
-use crate::airfoil::Airfoil;
+use crate::airfoil::span::StationAirfoils;
 use crate::blade::MAX_MODES;
 use crate::blade::aerodynamics::Air;
 use crate::blade::error::BladeError;
@@ -24,16 +25,18 @@ pub struct Rotor {
     pub blade: Blade,
     /// Number of blades.
     pub n_blades: usize,
-    /// Section tables.
-    pub airfoil: Airfoil,
+    /// Section table of every station.
+    pub airfoils: StationAirfoils,
     /// Law of sections that meet the air at three quarters of the chord; none on a lifting line.
     pub thin: Option<ThinSection>,
     /// Damper of every blade.
     pub lag_damper: Option<LagDamper>,
     /// Sticks to pitch.
     pub rigging: Rigging,
-    /// Rotor speed [rad/s].
+    /// Rotor speed [rad/s], positive in the sense of `rotation`.
     pub omega: f64,
+    /// Sense of rotation.
+    pub rotation: Sense,
     /// Hub centre from the body origin [m].
     pub position: [f64; 3],
     /// Shaft tilt forward and to the right [rad].
@@ -48,14 +51,19 @@ impl Rotor {
         tip_loss_factor: f64,
         discretisation: &Discretisation,
     ) -> Result<Self, BladeError> {
+        if data.rotation == Sense::Clockwise {
+            return Err(BladeError::Clockwise);
+        }
+        let blade = Blade::new(&data.blade, data.omega, tip_loss_factor, discretisation)?;
         Ok(Self {
-            blade: Blade::new(&data.blade, data.omega, tip_loss_factor, discretisation)?,
+            airfoils: data.airfoil.at(blade.stations.iter().map(|station| station.shapes.x)),
+            blade,
             n_blades: data.n_blades,
-            airfoil: data.airfoil.clone(),
             thin: None,
             lag_damper: data.lag_damper.clone(),
             rigging,
             omega: data.omega,
+            rotation: data.rotation,
             position: data.position,
             shaft_tilt: [data.shaft_tilt_forward, data.shaft_tilt_lateral],
         })
@@ -102,7 +110,7 @@ impl Rotor {
 
     #[inline(always)]
     pub(super) fn environment(&self, air: Air) -> BladeEnvironment<'_> {
-        BladeEnvironment { airfoil: &self.airfoil, air, rotor_speed: self.omega }
+        BladeEnvironment { airfoils: &self.airfoils, air, rotor_speed: self.omega }
     }
 
     /// Loads of a blade with its damper, at azimuth `psi` for the stick position [m] and its rate [m/s].
@@ -225,6 +233,13 @@ impl Rotor {
         let scale = 1.0 / (air.density * std::f64::consts::PI * radius * radius * self.tip_speed().powi(2));
         // hub axes, x aft and y right: right side down is a moment about -x, nose up about +y
         [force.z * scale, -(moment.x * (scale / radius)), moment.y * (scale / radius)]
+    }
+
+    /// Blade area over disk area.
+    pub fn solidity(&self) -> f64 {
+        let blade = &self.blade;
+        let area: f64 = blade.stations.iter().map(|s| s.geometry.chord * s.geometry.width).sum();
+        self.n_blades as f64 * area / (std::f64::consts::PI * blade.radius * blade.radius)
     }
 
     /// Station about which the wake's rigid equivalent blade turns [m].

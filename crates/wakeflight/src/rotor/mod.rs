@@ -7,5 +7,6 @@ pub mod hub;
 pub mod lag_damper;
 pub mod periodic;
 pub mod periodic_slopes;
+pub mod sense;
 pub mod stand;
 pub mod swashplate;

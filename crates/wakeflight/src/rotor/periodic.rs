@@ -24,8 +24,8 @@ impl Harmonics {
         self.start + i * (1 + 2 * self.n_harmonics)
     }
 
-    /// Names of the equations.
-    pub fn equations(&self) -> Vec<String> {
+    /// Names of them.
+    pub fn names(&self) -> Vec<String> {
         let mut names = Vec::new();
         for i in 0..self.n_modes {
             names.push(format!("mode_{i}_mean"));
@@ -60,58 +60,72 @@ impl Harmonics {
 /// What a blade is given at one azimuth of the revolution: its pitch and its inflow.
 pub type BladeGiven<'a, S> = (PitchMotion<S>, BladeInflow<'a, S>);
 
+/// One blade all the way round, in steady motion of the hub.
+#[derive(Clone, Copy, Debug)]
+pub struct Revolution<'a, S> {
+    /// Air.
+    pub air: Air,
+    /// Motion of the hub.
+    pub hub: &'a HubMotion<S>,
+    /// Where the blade's motion is in the unknowns.
+    pub harmonics: Harmonics,
+    /// Unknowns.
+    pub x: &'a [S],
+    /// Azimuths it is looked at.
+    pub n_azimuths: usize,
+}
+
+impl<S: Real> Revolution<'_, S> {
+    /// Azimuth number `l` [rad].
+    pub fn azimuth(&self, l: usize) -> f64 {
+        std::f64::consts::TAU * l as f64 / self.n_azimuths as f64
+    }
+}
+
 impl Rotor {
-    /// One blade all the way round in `n_azimuths` steps: mean loads of all blades; the projection of the blade equations
-    /// on every harmonic, as equivalent angles [rad], goes to `f`.
-    #[allow(clippy::too_many_arguments, reason = "the physical inputs of a revolution")]
+    /// Mean loads of all blades over the revolution; the projection of the blade equations on every harmonic, as equivalent
+    /// angles [rad], goes to `f`.
     pub fn revolution<'a, S: Real>(
         &self,
-        air: Air,
-        hub: &HubMotion<S>,
-        harmonics: &Harmonics,
-        x: &[S],
-        n_azimuths: usize,
+        turn: &Revolution<S>,
         given: impl Fn(usize, f64) -> BladeGiven<'a, S>,
         f: &mut [S],
     ) -> BladeLoads<S> {
+        let (n, harmonics) = (turn.n_azimuths, &turn.harmonics);
         let mut mean = BladeLoads::zero();
         self.clear(harmonics, f);
-        for l in 0..n_azimuths {
-            let psi = std::f64::consts::TAU * l as f64 / n_azimuths as f64;
-            let modal = harmonics.motion(x, psi, self.omega);
+        for l in 0..n {
+            let psi = turn.azimuth(l);
+            let modal = harmonics.motion(turn.x, psi, self.omega);
             let (control, inflow) = given(l, psi);
-            let loads = self.blade_loads(air, hub, psi, &modal, &control, &inflow);
-            self.add_azimuth(harmonics, psi, n_azimuths, &loads, &mut mean, f);
+            let loads = self.blade_loads(turn.air, turn.hub, psi, &modal, &control, &inflow);
+            self.add_azimuth(harmonics, (psi, n), &loads, &mut mean, f);
         }
         mean
     }
 
     /// The same without derivatives, four azimuths at once; the same bits.
-    #[allow(clippy::too_many_arguments, reason = "the physical inputs of a revolution")]
     pub fn revolution_of_four<'a>(
         &self,
-        air: Air,
-        hub: &HubMotion<f64>,
-        harmonics: &Harmonics,
-        x: &[f64],
-        n_azimuths: usize,
+        turn: &Revolution<f64>,
         given: impl Fn(usize, f64) -> BladeGiven<'a, f64>,
         f: &mut [f64],
     ) -> BladeLoads<f64> {
+        let (n, harmonics) = (turn.n_azimuths, &turn.harmonics);
         let mut mean = BladeLoads::zero();
         self.clear(harmonics, f);
-        for first in (0..n_azimuths).step_by(4) {
+        for first in (0..n).step_by(4) {
             let known: [_; 4] = std::array::from_fn(|k| {
                 // fewer than four left: the last stands in for those that are not there
-                let l = (first + k).min(n_azimuths - 1);
-                let psi = std::f64::consts::TAU * l as f64 / n_azimuths as f64;
+                let l = (first + k).min(n - 1);
+                let psi = turn.azimuth(l);
                 let (control, inflow) = given(l, psi);
-                ((psi, harmonics.motion(x, psi, self.omega), control), inflow)
+                ((psi, harmonics.motion(turn.x, psi, self.omega), control), inflow)
             });
             let (poses, inflow) = (known.map(|(pose, _)| pose), known.map(|(_, inflow)| inflow));
-            let loads = self.four_blade_loads(air, hub, &poses, &inflow);
-            for (pose, loads) in poses.iter().zip(&loads).take(n_azimuths - first) {
-                self.add_azimuth(harmonics, pose.0, n_azimuths, loads, &mut mean, f);
+            let loads = self.four_blade_loads(turn.air, turn.hub, &poses, &inflow);
+            for (pose, loads) in poses.iter().zip(&loads).take(n - first) {
+                self.add_azimuth(harmonics, (pose.0, n), loads, &mut mean, f);
             }
         }
         mean
@@ -123,12 +137,11 @@ impl Rotor {
         }
     }
 
-    /// Adds the loads of a blade at `psi`, one of `n` azimuths, to the mean of all blades and the projected equations.
+    /// Adds the loads of a blade at `psi` [rad], one of `n` azimuths, to the mean of all blades and the projected equations.
     fn add_azimuth<S: Real>(
         &self,
         harmonics: &Harmonics,
-        psi: f64,
-        n: usize,
+        (psi, n): (f64, usize),
         loads: &BladeLoads<S>,
         mean: &mut BladeLoads<S>,
         f: &mut [S],

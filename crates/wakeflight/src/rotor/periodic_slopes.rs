@@ -5,7 +5,7 @@
 //! azimuth for every mode.
 
 use super::hub::Rotor;
-use super::periodic::Harmonics;
+use super::periodic::Revolution;
 use crate::blade::MAX_MODES;
 use crate::blade::aerodynamics::Air;
 use crate::blade::kinematics::{ModalMotion, PitchMotion};
@@ -151,17 +151,13 @@ impl Task for AzimuthPass<'_> {
 }
 
 impl Rotor {
-    /// Derivatives of `Rotor::revolution` at the harmonics in `x`.
-    #[allow(clippy::too_many_arguments, reason = "the physical inputs of a revolution")]
+    /// Derivatives of `Rotor::revolution` at its harmonics.
     pub fn revolution_slopes<'a>(
         &self,
-        air: Air,
-        hub: &HubMotion<f64>,
-        harmonics: &Harmonics,
-        x: &[f64],
-        n_azimuths: usize,
+        turn: &Revolution<f64>,
         given: impl Fn(usize, f64) -> (PitchMotion<f64>, AzimuthInflow<'a>),
     ) -> RevolutionSlopes {
+        let Revolution { air, hub, harmonics, x, n_azimuths } = *turn;
         let m = harmonics.n_modes;
         let each = 1 + 2 * harmonics.n_harmonics;
         let n = m * each;
@@ -185,7 +181,7 @@ impl Rotor {
         let mut motion = vec![[1.0, 0.0, 0.0]; each];
         let mut by_harmonics = vec![0.0; n];
         for l in 0..n_azimuths {
-            let psi = std::f64::consts::TAU * l as f64 / n_azimuths as f64;
+            let psi = turn.azimuth(l);
             let modal = harmonics.motion(x, psi, self.omega);
             let (pitch, inflow) = given(l, psi);
             let mut loads = BladeLoads::zero();

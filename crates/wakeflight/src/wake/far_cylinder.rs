@@ -18,13 +18,13 @@ pub(crate) fn far_cylinder(options: &WakeOptions, tips: &Filaments) -> Option<Vo
     if options.far_wake != FarWake::Cylinder {
         return None;
     }
-    let (n, turn) = (tips.n_segments, options.steps_per_revolution);
+    let (n, turn) = (tips.n_segments, options.steps_per_revolution());
     let last_turn = || (0..tips.n_filaments).flat_map(|i| (n + 1 - turn..=n).map(move |k| tips.marker(i, k)));
     let mean =
         |value: &dyn Fn(usize) -> f64| last_turn().map(value).sum::<f64>() / last_turn().count() as f64;
     let at = |m: usize| tips.position[m];
     let axis = [mean(&|m| at(m)[0]), mean(&|m| at(m)[1])];
-    let pitch = mean(&|m| at(m - turn)[2] - at(m)[2]).max(LEAST_PITCH * options.radius);
+    let pitch = mean(&|m| at(m - turn)[2] - at(m)[2]).max(LEAST_PITCH * options.rotor.radius);
     let spacing = pitch / tips.n_filaments as f64;
     let ends = (0..tips.n_filaments).map(|i| at(tips.marker(i, n))[2]);
     Some(VortexCylinder {

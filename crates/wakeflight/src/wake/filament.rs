@@ -57,7 +57,7 @@ impl Filaments {
 /// r_c^2 = r_c0^2 + G R^2 zeta: diffusion of a Gaussian vortex with an eddy viscosity,
 /// G R^2 = 4 alpha delta nu / omega, alpha = 1.25643 [squire1965, bhagwat2002].
 pub fn core_radius(options: &WakeOptions, zeta: f64) -> f64 {
-    options.radius * (options.release_core().powi(2) + options.core_growth * zeta).sqrt()
+    options.rotor.radius * (options.release_core().powi(2) + options.core_growth * zeta).sqrt()
 }
 
 /// Square of the core radius of segment `k` in the middle of its age [m2].
@@ -75,7 +75,7 @@ pub fn stretched_core_squared(
     length_old: f64,
     length_new: f64,
 ) -> f64 {
-    let r2 = options.radius * options.radius;
+    let r2 = options.rotor.radius * options.rotor.radius;
     let grown = core_squared + options.core_growth * r2 * options.delta_psi();
     let ratio = if length_new > 0.0 { (length_old / length_new).clamp(0.5, 2.0) } else { 2.0 };
     let least = 0.01 * options.release_core() * options.release_core() * r2;

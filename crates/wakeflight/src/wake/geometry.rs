@@ -21,7 +21,7 @@ impl BladeGrid {
     /// Edges root_cutout + (R - root_cutout) sin(pi j / 2N): elements narrow toward the tip.
     pub fn new(options: &WakeOptions) -> Self {
         let n = options.n_stations;
-        let (root, radius) = (options.root_cutout, options.radius);
+        let (root, radius) = (options.rotor.root_cutout, options.rotor.radius);
         let mut edges: Vec<f64> =
             (0..=n).map(|j| root + (radius - root) * (PI * j as f64 / (2.0 * n as f64)).sin()).collect();
         // the tip must be the release point of the tip vortex to the last bit
@@ -56,7 +56,7 @@ impl BladeLine {
     /// Of a blade.
     pub fn new(options: &WakeOptions, blade: &BladeState) -> Self {
         BladeLine {
-            hinge_offset: options.hinge_offset,
+            hinge_offset: options.rotor.hinge_offset,
             psi: blade.psi.sin_cos(),
             flap: blade.flap.sin_cos(),
             lead: blade.lead.sin_cos(),
@@ -84,7 +84,7 @@ impl BladeLine {
 /// Release points of the free trailers of a blade, root to tip (trailers_per_blade) [m, `_h`].
 pub fn release_points(options: &WakeOptions, grid: &BladeGrid, blade: &BladeState) -> Vec<[f64; 3]> {
     let radius = |edge: usize| match options.trailers {
-        Trailers::Tip => options.release_radius * options.radius,
+        Trailers::Tip => options.release_radius * options.rotor.radius,
         Trailers::FullSpan => grid.edges[edge],
     };
     let line = BladeLine::new(options, blade);

@@ -2,14 +2,11 @@
 
 use super::geometry::{BladeGrid, BladeLine};
 use super::motion::{BladeState, HubMotion};
-use super::options::WakeOptions;
-
-/// Outer end of the spans that the sheet gathers (fraction of R).
-pub const OUTER_END: f64 = 0.8;
+use super::options::{OUTER_END, WakeOptions};
 
 /// Edges of the equal spans between root cutout and 0.8 R [m].
 fn span_edges(options: &WakeOptions) -> Vec<f64> {
-    let (inner, outer) = (options.root_cutout, OUTER_END * options.radius);
+    let (inner, outer) = (options.rotor.root_cutout, OUTER_END * options.rotor.radius);
     let n = options.n_sheet;
     (0..=n).map(|i| inner + (outer - inner) * i as f64 / n as f64).collect()
 }

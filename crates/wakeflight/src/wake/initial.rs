@@ -17,9 +17,9 @@ pub fn rigid_helix(
 ) -> [f64; 3] {
     let wind = hub.wind([0.0; 3]);
     [
-        release[0] + wind[0] / options.omega * zeta,
-        release[1] + wind[1] / options.omega * zeta,
-        release[2] + (wind[2] / options.omega - mean_inflow * options.radius) * zeta,
+        release[0] + wind[0] / options.rotor.omega * zeta,
+        release[1] + wind[1] / options.rotor.omega * zeta,
+        release[2] + (wind[2] / options.rotor.omega - mean_inflow * options.rotor.radius) * zeta,
     ]
 }
 
@@ -35,16 +35,17 @@ pub fn hover_helix(
     zeta: f64,
 ) -> [f64; 3] {
     let ct = 2.0 * mean_inflow * mean_inflow;
-    let solidity = options.n_blades as f64 * options.chord / (std::f64::consts::PI * options.radius);
-    let first = std::f64::consts::TAU / options.n_blades as f64;
+    let solidity =
+        options.rotor.n_blades as f64 * options.rotor.chord / (std::f64::consts::PI * options.rotor.radius);
+    let first = std::f64::consts::TAU / options.rotor.n_blades as f64;
     let (k1, k2) = (-0.25 * ct / solidity, -1.41 * (0.5 * ct).sqrt());
     let descent = k1 * zeta.min(first) + k2 * (zeta - first).max(0.0);
     let radius = 0.78 + 0.22 * (-(0.145 + 27.0 * ct) * zeta).exp();
-    let wind = hub.wind([0.0; 3]).map(|v| v / options.omega * zeta);
+    let wind = hub.wind([0.0; 3]).map(|v| v / options.rotor.omega * zeta);
     [
         release[0] * radius + wind[0],
         release[1] * radius + wind[1],
-        release[2] + descent * options.radius + wind[2],
+        release[2] + descent * options.rotor.radius + wind[2],
     ]
 }
 

@@ -41,7 +41,7 @@ pub(crate) fn push_filament(
         segment(k, [0.0; 3]);
     }
     for shift in far_wake(options, filaments, i) {
-        for k in n - options.steps_per_revolution..n {
+        for k in n - options.steps_per_revolution()..n {
             segment(k, shift);
         }
     }
@@ -52,7 +52,7 @@ fn far_wake(options: &WakeOptions, filaments: &Filaments, i: usize) -> Vec<[f64;
     if options.far_wake_turns == 0 {
         return Vec::new();
     }
-    let (n, turn, m) = (filaments.n_segments, options.steps_per_revolution, filaments.marker(i, 0));
+    let (n, turn, m) = (filaments.n_segments, options.steps_per_revolution(), filaments.marker(i, 0));
     let mut pitch = [0.0; 3];
     for k in n + 1 - turn..=n {
         let (a, b) = (filaments.position[m + k - turn], filaments.position[m + k]);
@@ -125,7 +125,7 @@ pub(crate) fn push_shed(
     if options.far_wake_turns == 0 {
         return;
     }
-    let turn = options.steps_per_revolution;
+    let turn = options.steps_per_revolution();
     let repeats: Vec<Vec<[f64; 3]>> = (0..n_t).map(|t| far_wake(options, free, blade * n_t + t)).collect();
     for repeat in 0..options.far_wake_turns {
         let shifts: Vec<[f64; 3]> = repeats.iter().map(|r| r[repeat]).collect();

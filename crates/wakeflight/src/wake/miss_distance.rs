@@ -9,11 +9,11 @@ use super::velocity_field::RotorInstant;
 pub fn miss_distance_in_cores(options: &WakeOptions, instant: &RotorInstant) -> f64 {
     let (free, n, n_t) = (&instant.free, options.n_stations, options.trailers_per_blade());
     let mut smallest = f64::INFINITY;
-    for blade in 0..options.n_blades {
+    for blade in 0..options.rotor.n_blades {
         // stations lie on the line of a rigid blade: its two ends are the whole span
         let ends = [instant.edge[blade * (n + 1)], instant.edge[blade * (n + 1) + n]];
         let (low, high) = (ends[0][2].min(ends[1][2]), ends[0][2].max(ends[1][2]));
-        for other in 0..options.n_blades {
+        for other in 0..options.rotor.n_blades {
             let filament = (other + 1) * n_t - 1;
             let first = if other == blade { options.near_wake_markers().max(1) } else { 0 };
             for k in first..free.n_segments {

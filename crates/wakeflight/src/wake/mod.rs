@@ -34,7 +34,7 @@ pub use error::WakeError;
 pub use lifting_surface::weissinger_matrix;
 pub use motion::{BladeState, HubMotion};
 pub use near_wake::near_wake_matrix;
-pub use options::WakeOptions;
+pub use options::{MarchingOptions, RelaxationOptions, WakeOptions, WakeRotor};
 pub use relaxation::{Norms, RelaxationWake, tip_rows};
 pub use time_marching::{StepReport, TimeMarchingWake};
 pub use velocity_field::{InducedVelocity, Induction, LinearField, Prescribed, VortexSegments};

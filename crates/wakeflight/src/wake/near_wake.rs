@@ -57,7 +57,7 @@ pub(super) fn trailers(
     let past: Vec<(BladeLine, [f64; 3])> = (0..=options.near_wake_segments)
         .map(|k| {
             let zeta = options.near_wake_angle * k as f64 / options.near_wake_segments as f64;
-            (line.turned_to(blade.psi - zeta), wind.map(|v| v * zeta / options.omega))
+            (line.turned_to(blade.psi - zeta), wind.map(|v| v * zeta / options.rotor.omega))
         })
         .collect();
     grid.edges.iter().map(|r| past.iter().map(|(line, blown)| sum(line.at(*r), *blown)).collect()).collect()

@@ -6,7 +6,7 @@ use super::geometry::{BladeGrid, release_points};
 use super::inboard_sheet;
 use super::initial;
 use super::motion::{BladeState, HubMotion};
-use super::options::WakeOptions;
+use super::options::{RelaxationOptions, WakeOptions};
 use super::stencils;
 use super::trailers;
 use super::velocity_field::{
@@ -31,7 +31,10 @@ pub struct Norms {
 /// l + b n_azimuths/n_blades. Rows are the azimuths psi_l = l delta_psi, l = 0 ... steps_per_revolution - 1.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct RelaxationWake<F: InducedVelocity = Induction> {
+    #[serde(with = "super::options::whole")]
     pub(crate) options: WakeOptions,
+    /// Share of a new geometry taken in a sweep.
+    relaxation: f64,
     pub(crate) grid: BladeGrid,
     pub(crate) field: F,
     pub(crate) hub: HubMotion,
@@ -58,9 +61,14 @@ pub struct RelaxationWake<F: InducedVelocity = Induction> {
 impl RelaxationWake {
     /// Rigid guess of the geometry for a hub motion and a mean induced inflow v/(omega R) (momentum theory); blades
     /// without flap and circulation until [`set_state`](Self::set_state).
-    pub fn new(options: WakeOptions, hub: HubMotion, mean_inflow: f64) -> Result<Self, WakeError> {
+    pub fn new(
+        options: WakeOptions,
+        own: RelaxationOptions,
+        hub: HubMotion,
+        mean_inflow: f64,
+    ) -> Result<Self, WakeError> {
         let field = Induction::Vortices(VortexSegments::new(&options));
-        Self::with_field(options, hub, mean_inflow, field)
+        Self::with_field(options, own, hub, mean_inflow, field)
     }
 }
 
@@ -68,14 +76,16 @@ impl<F: InducedVelocity> RelaxationWake<F> {
     /// Same with the induced velocity from `field`.
     pub fn with_field(
         options: WakeOptions,
+        own: RelaxationOptions,
         hub: HubMotion,
         mean_inflow: f64,
         field: F,
     ) -> Result<Self, WakeError> {
         options.validate()?;
+        own.validate()?;
         hub.validate(&options)?;
         finite("mean_inflow", &[mean_inflow])?;
-        let n_psi = options.steps_per_revolution;
+        let n_psi = options.steps_per_revolution();
         let (n_k, n_t, n_sheet) =
             (options.n_segments(), options.trailers_per_blade(), options.sheet_filaments());
         let aged: Vec<f64> = (0..n_k).map(|k| aged_core_squared(&options, k)).collect();
@@ -95,6 +105,7 @@ impl<F: InducedVelocity> RelaxationWake<F> {
             sweeps: 0,
             evaluations: 0,
             work: FieldWork::default(),
+            relaxation: own.relaxation,
             options,
         };
         wake.place(&vec![(0.0, 0.0); n_psi]);
@@ -112,7 +123,7 @@ impl<F: InducedVelocity> RelaxationWake<F> {
         blades_by_azimuth: &[(f64, f64)],
         circulation: &[f64],
     ) -> Result<(), WakeError> {
-        let (n_psi, n_r) = (self.options.steps_per_revolution, self.options.n_stations);
+        let (n_psi, n_r) = (self.options.steps_per_revolution(), self.options.n_stations);
         hub.validate(&self.options)?;
         length("blades_by_azimuth", blades_by_azimuth.len(), n_psi)?;
         length("circulation", circulation.len(), n_psi * n_r)?;
@@ -163,9 +174,8 @@ impl<F: InducedVelocity> RelaxationWake<F> {
 
     /// Relaxation factor of the sweeps, more than 0, up to 1.
     pub fn set_relaxation(&mut self, relaxation: f64) -> Result<(), WakeError> {
-        let options = WakeOptions { relaxation, ..self.options.clone() };
-        options.validate()?;
-        self.options = options;
+        RelaxationOptions { relaxation, ..RelaxationOptions::default() }.validate()?;
+        self.relaxation = relaxation;
         Ok(())
     }
 
@@ -217,9 +227,9 @@ impl<F: InducedVelocity> RelaxationWake<F> {
 
     /// Induced inflow at the stations without that of the own near wake, -v_z/(omega R) (n_azimuths, n_stations).
     pub fn inflow_far(&mut self) -> Vec<f64> {
-        let (n_psi, n_r) = (self.options.steps_per_revolution, self.options.n_stations);
+        let (n_psi, n_r) = (self.options.steps_per_revolution(), self.options.n_stations);
         let (mut inflow, mut lambda) = (vec![0.0; n_psi * n_r], Vec::new());
-        for l in 0..n_psi / self.options.n_blades {
+        for l in 0..n_psi / self.options.rotor.n_blades {
             let instant = self.instant_of(l, &self.position, &self.core_squared);
             let wanted = Wanted { stations: Some(&mut lambda), ..Wanted::default() };
             self.evaluations += field_at(&self.field, &self.options, &instant, &mut self.work, wanted);
@@ -239,7 +249,11 @@ impl<F: InducedVelocity> RelaxationWake<F> {
 
     /// Rotor and wake with blade 1 at the azimuth of row `azimuth_index` (periodic).
     pub fn instant(&self, azimuth_index: usize) -> RotorInstant {
-        self.instant_of(azimuth_index % self.options.steps_per_revolution, &self.position, &self.core_squared)
+        self.instant_of(
+            azimuth_index % self.options.steps_per_revolution(),
+            &self.position,
+            &self.core_squared,
+        )
     }
 
     /// Index of marker `k` of trailer `t` of row `l`.
@@ -249,19 +263,19 @@ impl<F: InducedVelocity> RelaxationWake<F> {
 
     /// Row `k` steps before row `l`.
     pub(crate) fn row(&self, l: usize, k: usize) -> usize {
-        let n = self.options.steps_per_revolution;
+        let n = self.options.steps_per_revolution();
         (l + n - k % n) % n
     }
 
     /// Row of blade `blade` when blade 1 is at row `l`.
     pub(crate) fn blade_row(&self, l: usize, blade: usize) -> usize {
-        let n = self.options.steps_per_revolution;
-        (l + blade * (n / self.options.n_blades)) % n
+        let n = self.options.steps_per_revolution();
+        (l + blade * (n / self.options.rotor.n_blades)) % n
     }
 
     /// Azimuth of row `l` [rad].
     fn azimuth(&self, l: usize) -> f64 {
-        TAU * l as f64 / self.options.steps_per_revolution as f64
+        TAU * l as f64 / self.options.steps_per_revolution() as f64
     }
 
     /// Puts the blade at every azimuth.
@@ -283,7 +297,7 @@ impl<F: InducedVelocity> RelaxationWake<F> {
     fn restart(&mut self) {
         let delta = self.options.delta_psi();
         let n_t = self.options.trailers_per_blade();
-        for l in 0..self.options.steps_per_revolution {
+        for l in 0..self.options.steps_per_revolution() {
             for t in 0..n_t {
                 for k in 0..=self.options.n_segments() {
                     let release = self.release[self.row(l, k) * n_t + t];
@@ -307,7 +321,7 @@ impl<F: InducedVelocity> RelaxationWake<F> {
             distance(position[self.index(l, t, k)], position[self.index(l, t, k + 1)])
         };
         for k in 1..n_k {
-            for l in 0..self.options.steps_per_revolution {
+            for l in 0..self.options.steps_per_revolution() {
                 let past = self.row(l, 1);
                 for t in 0..n_t {
                     cores[(l * n_t + t) * n_k + k] = stretched_core_squared(
@@ -329,7 +343,7 @@ impl<F: InducedVelocity> RelaxationWake<F> {
         let (n_r, n_sheet) = (options.n_stations, options.sheet_filaments());
         let carry = inboard_sheet::convection(options, &self.hub, self.mean_inflow);
         let mut instant = RotorInstant::new(options, &self.grid);
-        for blade in 0..options.n_blades {
+        for blade in 0..options.rotor.n_blades {
             let row = self.blade_row(l, blade);
             instant.place_blade(
                 options,
@@ -349,7 +363,7 @@ impl<F: InducedVelocity> RelaxationWake<F> {
                     let m = instant.free.marker(blade * n_t + t, k);
                     instant.free.circulation[m] = self.released[born * n_t + t];
                 }
-                let age = k as f64 * options.delta_psi() / options.omega;
+                let age = k as f64 * options.delta_psi() / options.rotor.omega;
                 for s in 0..n_sheet {
                     let m = instant.sheet.marker(blade * n_sheet + s, k);
                     instant.sheet.position[m] =
@@ -367,15 +381,15 @@ impl<F: InducedVelocity> RelaxationWake<F> {
         let markers = n_t * (self.options.n_segments() + 1);
         let mut velocity = vec![[0.0; 3]; position.len()];
         let mut at_instant = Vec::new();
-        for l in 0..self.options.steps_per_revolution / self.options.n_blades {
+        for l in 0..self.options.steps_per_revolution() / self.options.rotor.n_blades {
             let instant = self.instant_of(l, position, core_squared);
             let wanted = Wanted { markers: Some((&self.hub, &mut at_instant)), ..Wanted::default() };
             self.evaluations += field_at(&self.field, &self.options, &instant, &mut self.work, wanted);
-            for blade in 0..self.options.n_blades {
+            for blade in 0..self.options.rotor.n_blades {
                 let to = self.index(self.blade_row(l, blade), 0, 0);
                 let from = instant.free.marker(blade * n_t, 0);
                 for i in 0..markers {
-                    velocity[to + i] = at_instant[from + i].map(|v| v / self.options.omega);
+                    velocity[to + i] = at_instant[from + i].map(|v| v / self.options.rotor.omega);
                 }
             }
         }
@@ -390,7 +404,7 @@ impl<F: InducedVelocity> RelaxationWake<F> {
             position[self.index(0, i, 0)] = *release;
         }
         for k in 1..=self.options.n_segments() {
-            for l in 0..self.options.steps_per_revolution {
+            for l in 0..self.options.steps_per_revolution() {
                 let past = self.row(l, 1);
                 for t in 0..n_t {
                     let (a, b) = (self.index(l, t, k), self.index(past, t, k));
@@ -426,14 +440,14 @@ impl<F: InducedVelocity> RelaxationWake<F> {
         self.check(&corrected)?;
 
         let n_k = self.options.n_segments();
-        let first = self.options.steps_per_revolution;
+        let first = self.options.steps_per_revolution();
         let (mut all, mut first_turn) = (0.0, 0.0);
         for (i, new) in corrected.iter().enumerate() {
             let k = i % (n_k + 1);
             let mut change = 0.0;
             for c in 0..3 {
                 // blades may have moved since the last sweep: the release points follow them fully
-                let weight = if k == 0 { 1.0 } else { self.options.relaxation };
+                let weight = if k == 0 { 1.0 } else { self.relaxation };
                 let delta = weight * (new[c] - self.position[i][c]);
                 self.position[i][c] = if k == 0 { new[c] } else { self.position[i][c] + delta };
                 change += delta * delta;
@@ -447,8 +461,8 @@ impl<F: InducedVelocity> RelaxationWake<F> {
         self.sweeps += 1;
         let lines = self.release.len() as f64;
         Ok(Norms {
-            all: (all / (lines * (n_k + 1) as f64)).sqrt() / self.options.radius,
-            first_turn: (first_turn / (lines * (first + 1) as f64)).sqrt() / self.options.radius,
+            all: (all / (lines * (n_k + 1) as f64)).sqrt() / self.options.rotor.radius,
+            first_turn: (first_turn / (lines * (first + 1) as f64)).sqrt() / self.options.rotor.radius,
         })
     }
 

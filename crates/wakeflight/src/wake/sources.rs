@@ -73,7 +73,7 @@ pub(crate) fn push_kind(
         Kind::Bound if own => {}
         Kind::Bound => {
             let n = options.n_stations;
-            let core = (options.bound_core * options.chord).max(floor);
+            let core = (options.bound_core * options.rotor.chord).max(floor);
             let edges = &instant.edge[blade * (n + 1)..(blade + 1) * (n + 1)];
             let mut push = |j: usize, gamma: f64| segments.push(edges[j], edges[j + 1], gamma, core);
             match options.trailers {
@@ -111,19 +111,19 @@ pub(crate) const SEEN: usize = 2 * KINDS.len();
 impl WakeSources {
     /// Packs an instant; `for_stations`: also what the blades see.
     pub fn pack(&mut self, options: &WakeOptions, instant: &RotorInstant, for_stations: bool) {
-        self.n_blades = options.n_blades;
+        self.n_blades = options.rotor.n_blades;
         pack_all(&mut self.all, &mut self.marks, options, instant, 0.0);
         if !for_stations {
             return;
         }
-        let floor = options.station_core_floor * options.chord;
+        let floor = options.station_core_floor * options.rotor.chord;
         self.is_floored = self.all.least_core() < floor;
         if self.is_floored {
             pack_all(&mut self.floored, &mut self.marks, options, instant, floor);
         }
         self.own.clear();
         self.own_marks.clear();
-        for blade in 0..options.n_blades {
+        for blade in 0..options.rotor.n_blades {
             for kind in KINDS {
                 self.own_marks.push(self.own.mark());
                 push_kind(&mut self.own, options, instant, kind, blade, true, floor);
@@ -168,7 +168,7 @@ fn pack_all(
     to.clear();
     marks.clear();
     for kind in KINDS {
-        for blade in 0..options.n_blades {
+        for blade in 0..options.rotor.n_blades {
             marks.push(to.mark());
             push_kind(to, options, instant, kind, blade, false, floor);
         }

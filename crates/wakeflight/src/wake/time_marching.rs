@@ -6,14 +6,14 @@ use super::filament::{aged_core_squared, distance, stretched_core_squared};
 use super::geometry::{BladeGrid, release_points};
 use super::inboard_sheet;
 use super::motion::{BladeState, HubMotion};
-use super::options::WakeOptions;
+use super::options::{MarchingOptions, WakeOptions};
 use super::relaxation::{RelaxationWake, tip_rows};
 use super::stencils::{Cell, unknown_corner};
 use super::trailers;
 use super::velocity_field::{
-    FieldWork, InducedVelocity, Induction, RotorInstant, Wanted, field_at, point_velocity, sum,
+    FieldWork, InducedVelocity, Induction, RotorInstant, Wanted, difference, field_at, mean, point_velocity,
+    sum,
 };
-use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
 /// Largest motion of a marker in one step, over R.
@@ -35,9 +35,11 @@ pub struct StepReport {
 ///
 /// dr/dpsi + dr/dzeta = V/omega; one predictor and one corrector per step. Three levels of geometry are kept, and with
 /// every marker its circulation and the place of its release.
-#[derive(Clone, Debug, Deserialize, Serialize)]
+#[derive(Clone, Debug, serde::Deserialize, serde::Serialize)]
 pub struct TimeMarchingWake<F: InducedVelocity = Induction> {
+    #[serde(with = "super::options::whole")]
     options: WakeOptions,
+    own: MarchingOptions,
     grid: BladeGrid,
     field: F,
     hub: HubMotion,
@@ -76,20 +78,25 @@ impl Clone for Work {
 
 impl<F: InducedVelocity> TimeMarchingWake<F> {
     /// Starts from a periodic wake with blade 1 at row `azimuth_index`; the past levels are the periodic ones.
-    pub fn from_relaxation(relaxation: &RelaxationWake<F>, azimuth_index: usize) -> Result<Self, WakeError> {
-        let options = relaxation.options.clone();
-        if azimuth_index >= options.steps_per_revolution {
+    pub fn from_relaxation(
+        relaxation: &RelaxationWake<F>,
+        azimuth_index: usize,
+        own: MarchingOptions,
+    ) -> Result<Self, WakeError> {
+        let options = relaxation.options;
+        own.validate(&options)?;
+        if azimuth_index >= options.steps_per_revolution() {
             return Err(WakeError::InvalidOption {
                 field: "azimuth_index",
                 value: azimuth_index.to_string(),
-                allowed: format!("less than steps_per_revolution = {}", options.steps_per_revolution),
+                allowed: format!("less than steps_per_revolution = {}", options.steps_per_revolution()),
             });
         }
         let (n_k, n_t) = (options.n_segments(), options.trailers_per_blade());
         let instant = relaxation.instant(azimuth_index);
         let mut carrier = Vec::with_capacity(instant.free.position.len());
         let mut levels: [Vec<[f64; 3]>; 3] = Default::default();
-        for i in 0..options.n_blades * n_t {
+        for i in 0..options.rotor.n_blades * n_t {
             let (row, t) = (relaxation.blade_row(azimuth_index, i / n_t), i % n_t);
             let from = |row: usize, k: usize| match options.form {
                 Form::Displacement => relaxation.release[relaxation.row(row, k) * n_t + t],
@@ -103,7 +110,7 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
                 }
             }
         }
-        let blades = (0..options.n_blades)
+        let blades = (0..options.rotor.n_blades)
             .map(|blade| relaxation.blades[relaxation.blade_row(azimuth_index, blade)])
             .collect();
         Ok(TimeMarchingWake {
@@ -121,26 +128,8 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
             velocity_is_known: false,
             work: Work::default(),
             options,
+            own,
         })
-    }
-
-    /// Replaces the scheme of the options that the wake was started with.
-    pub fn set_scheme(
-        &mut self,
-        scheme: Scheme,
-        predictor: Predictor,
-        time_filter: f64,
-    ) -> Result<(), WakeError> {
-        let options = WakeOptions { scheme, predictor, time_filter, ..self.options.clone() };
-        options.validate()?;
-        self.options = options;
-        Ok(())
-    }
-
-    /// Replaces the fields that a step evaluates.
-    pub fn set_evaluation(&mut self, evaluation: Evaluation) {
-        self.options.evaluation = evaluation;
-        self.velocity_is_known = false;
     }
 
     /// Advances by one step of azimuth to the given hub motion, blades (n_blades) and bound circulation
@@ -168,11 +157,11 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
         let mut evaluations = self.renew_velocity(&mut work.field);
         self.shift(work, &hub, blades, circulation);
         let Work { field, next, carrier, unknown, at_new } = work;
-        let (options, velocity) = (&self.options, &self.velocity);
+        let (options, own, velocity) = (&self.options, self.own, &self.velocity);
 
         // predictor: both ends of the segment at the old level
-        let predictor = match options.predictor {
-            Predictor::Same => options.scheme,
+        let predictor = match own.predictor {
+            Predictor::Same => own.scheme,
             Predictor::Central => Scheme::Pcc,
         };
         self.march(predictor, next, carrier, |i| mean(velocity[i], velocity[i + 1]), unknown);
@@ -182,22 +171,22 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
         let wanted = Wanted { markers: Some((&hub, &mut *at_new)), ..Wanted::default() };
         evaluations += field_at(&self.field, options, next, field, wanted);
         let new = |i: usize| mean(at_new[i], at_new[i + 1]);
-        match options.scheme {
-            Scheme::Bdf2 => self.march(options.scheme, next, carrier, new, unknown),
+        match own.scheme {
+            Scheme::Bdf2 => self.march(own.scheme, next, carrier, new, unknown),
             Scheme::Pcc | Scheme::Pc2b => {
                 let both = |i: usize| mean(mean(velocity[i], velocity[i + 1]), new(i));
-                self.march(options.scheme, next, carrier, both, unknown);
+                self.march(own.scheme, next, carrier, both, unknown);
             }
         }
         self.place_markers(next, carrier, unknown);
         let max_displacement = self.guard(next)?;
         let odd_even = self.odd_even(unknown);
 
-        if options.time_filter > 0.0 {
+        if own.time_filter > 0.0 {
             for i in 0..unknown.len() {
                 for c in 0..3 {
                     let second = unknown[i][c] - 2.0 * self.levels[0][i][c] + self.levels[1][i][c];
-                    self.levels[0][i][c] += self.options.time_filter * second;
+                    self.levels[0][i][c] += own.time_filter * second;
                 }
             }
         }
@@ -206,7 +195,7 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
         std::mem::swap(&mut self.instant, next);
         std::mem::swap(&mut self.carrier, carrier);
         // what the last evaluation saw was the predicted wake
-        self.velocity_is_known = self.options.evaluation == Evaluation::Pec;
+        self.velocity_is_known = self.own.evaluation == Evaluation::Pec;
         if self.velocity_is_known {
             std::mem::swap(&mut self.velocity, at_new);
         }
@@ -241,12 +230,17 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
             }
         }
         let n_inner = (free.n_filaments * (free.n_segments - 1)) as f64;
-        (curvature / n_inner).sqrt() / self.options.radius
+        (curvature / n_inner).sqrt() / self.options.rotor.radius
     }
 
-    /// Options.
+    /// Options that both kinds of free wake share.
     pub fn options(&self) -> &WakeOptions {
         &self.options
+    }
+
+    /// Options of marching.
+    pub fn own(&self) -> &MarchingOptions {
+        &self.own
     }
 
     /// Radial grid.
@@ -305,7 +299,7 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
     pub fn set_circulation(&mut self, circulation: &[f64]) -> Result<(), WakeError> {
         length("circulation", circulation.len(), self.instant.circulation.len())?;
         finite("circulation", circulation)?;
-        self.velocity_is_known &= self.options.evaluation == Evaluation::Pec;
+        self.velocity_is_known &= self.own.evaluation == Evaluation::Pec;
         self.instant.circulation.copy_from_slice(circulation);
         for (blade, gamma) in circulation.chunks_exact(self.options.n_stations).enumerate() {
             release_circulation(&self.options, &self.grid, &mut self.instant, blade, gamma);
@@ -343,7 +337,7 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
         circulation: &[f64],
     ) -> Result<(), WakeError> {
         hub.validate(&self.options)?;
-        length("blades", blades.len(), self.options.n_blades)?;
+        length("blades", blades.len(), self.options.rotor.n_blades)?;
         length("circulation", circulation.len(), self.instant.circulation.len())?;
         finite("circulation", circulation)?;
         for (old, new) in self.blades.iter().zip(blades) {
@@ -372,7 +366,7 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
         carrier.clone_from(&self.carrier);
         let old_carry = inboard_sheet::convection(options, &self.hub, self.mean_inflow);
         let new_carry = inboard_sheet::convection(options, hub, self.mean_inflow);
-        let drift = mean(old_carry, new_carry).map(|v| v * options.delta_psi() / options.omega);
+        let drift = mean(old_carry, new_carry).map(|v| v * options.delta_psi() / options.rotor.omega);
         for (blade, state) in blades.iter().enumerate() {
             let gamma = &circulation[blade * n_r..(blade + 1) * n_r];
             next.place_blade(options, &self.grid, blade, state, gamma);
@@ -410,7 +404,7 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
         new: &mut Vec<[f64; 3]>,
     ) {
         let [now, past, older] = &self.levels;
-        let scale = self.options.delta_psi() / self.options.omega;
+        let scale = self.options.delta_psi() / self.options.rotor.omega;
         new.resize(now.len(), [0.0; 3]);
         for filament in 0..next.free.n_filaments {
             let m = next.free.marker(filament, 0);
@@ -463,7 +457,7 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
             let m = next.free.marker(filament, 0);
             for k in 1..=self.options.n_segments() {
                 let displacement = distance(next.free.position[m + k], self.instant.free.position[m + k - 1])
-                    / self.options.radius;
+                    / self.options.rotor.radius;
                 if displacement.is_nan() || displacement > LARGEST_DISPLACEMENT {
                     return Err(WakeError::Diverged {
                         filament,
@@ -503,14 +497,4 @@ fn release_circulation(
             instant.sheet.circulation[m] = strength;
         }
     }
-}
-
-/// Mean of two vectors.
-fn mean(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|c| 0.5 * (a[c] + b[c]))
-}
-
-/// Difference of two vectors.
-fn difference(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|c| a[c] - b[c])
 }

@@ -25,7 +25,7 @@ fn outboard_integral(grid: &BladeGrid, circulation: &[f64], inner: f64) -> (f64,
 /// * `max`: crest outboard of `tip_strength_inner`, of the sign that the integral over r > 0.7 R has; 0 if no
 ///   station has it.
 pub fn tip_circulation(options: &WakeOptions, grid: &BladeGrid, circulation: &[f64]) -> f64 {
-    let inner = options.tip_strength_inner * options.radius;
+    let inner = options.tip_strength_inner * options.rotor.radius;
     match options.tip_strength {
         TipStrength::Equivalent => {
             let mut sum = (0.0, 0.0);
@@ -41,7 +41,7 @@ pub fn tip_circulation(options: &WakeOptions, grid: &BladeGrid, circulation: &[f
             integral / span
         }
         TipStrength::Max => {
-            let sign = outboard_integral(grid, circulation, SIGN_RANGE * options.radius).0;
+            let sign = outboard_integral(grid, circulation, SIGN_RANGE * options.rotor.radius).0;
             let outboard =
                 grid.stations.iter().zip(circulation).filter(|(r, _)| **r >= inner).map(|(_, g)| *g);
             if sign >= 0.0 { outboard.fold(0.0, f64::max) } else { outboard.fold(0.0, f64::min) }

@@ -203,11 +203,11 @@ impl RotorInstant {
     /// Blades and empty filaments.
     pub fn new(options: &WakeOptions, grid: &BladeGrid) -> Self {
         RotorInstant {
-            free: Filaments::new(options, options.n_blades * options.trailers_per_blade()),
-            sheet: Filaments::new(options, options.n_blades * options.sheet_filaments()),
-            edge: vec![[0.0; 3]; options.n_blades * (options.n_stations + 1)],
-            station: vec![[0.0; 3]; options.n_blades * options.n_stations],
-            circulation: vec![0.0; options.n_blades * options.n_stations],
+            free: Filaments::new(options, options.rotor.n_blades * options.trailers_per_blade()),
+            sheet: Filaments::new(options, options.rotor.n_blades * options.sheet_filaments()),
+            edge: vec![[0.0; 3]; options.rotor.n_blades * (options.n_stations + 1)],
+            station: vec![[0.0; 3]; options.rotor.n_blades * options.n_stations],
+            circulation: vec![0.0; options.rotor.n_blades * options.n_stations],
             trailer_edges: grid.trailer_edges.clone(),
         }
     }
@@ -235,9 +235,9 @@ impl RotorInstant {
     /// beyond the near wake only, and no core smaller than the floor.
     pub fn segments(&self, options: &WakeOptions, own_blade: Option<usize>) -> Segments {
         let mut segments = Segments::default();
-        let floor = own_blade.map_or(0.0, |_| options.station_core_floor * options.chord);
+        let floor = own_blade.map_or(0.0, |_| options.station_core_floor * options.rotor.chord);
         for kind in KINDS {
-            for blade in 0..options.n_blades {
+            for blade in 0..options.rotor.n_blades {
                 push_kind(&mut segments, options, self, kind, blade, own_blade == Some(blade), floor);
             }
         }
@@ -290,7 +290,7 @@ pub fn field_at<F: InducedVelocity>(
     let Wanted { mut markers, stations } = wanted;
     let FieldWork { sources, station_velocity } = work;
     sources.pack(options, instant, stations.is_some());
-    let n_seen = if stations.is_some() { options.n_blades } else { 0 };
+    let n_seen = if stations.is_some() { options.rotor.n_blades } else { 0 };
     let seen: Vec<[Part<'_>; SEEN]> = (0..n_seen).map(|blade| sources.seen_from(blade)).collect();
     station_velocity.clear();
     station_velocity.resize(n_seen * options.n_stations, [0.0; 3]);
@@ -367,6 +367,16 @@ pub fn point_velocity<F: InducedVelocity>(
 /// Sum of two vectors.
 pub(crate) fn sum(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
+}
+
+/// Mean of two vectors.
+pub(super) fn mean(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|c| 0.5 * (a[c] + b[c]))
+}
+
+/// Difference of two vectors.
+pub(super) fn difference(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|c| a[c] - b[c])
 }
 
 /// Adds `b` to `a`.

@@ -70,6 +70,8 @@ pub fn uniform(hold: Root, root: f64, radius: f64, ei_flap: f64, ei_lag: f64) ->
         structural_damping_ratio: 0.0,
         delta3: 0.0,
         precone: 0.0,
+        flap_spring: 0.0,
+        lag_spring: 0.0,
         rigid: false,
     }
 }
@@ -108,6 +110,8 @@ pub fn uh60a() -> BladeProperties {
         structural_damping_ratio: blade("structural_damping_ratio"),
         delta3: rotor("delta3"),
         precone: rotor("precone"),
+        flap_spring: 0.0,
+        lag_spring: 0.0,
         rigid: false,
     }
 }

@@ -10,6 +10,7 @@ use beam_support::uh60a;
 use data_files::{Csv, INCH};
 use wakeflight::aircraft::data::{AircraftData, RotorData};
 use wakeflight::aircraft::model::{Aircraft, HeldInflow, Inputs};
+use wakeflight::airfoil::span::SpanSections;
 use wakeflight::airfoil::{Airfoil, AirfoilTables};
 use wakeflight::airframe::mass::MassProperties;
 use wakeflight::blade::MAX_MODES;
@@ -23,6 +24,7 @@ use wakeflight::numerics::frames::Vec3;
 use wakeflight::numerics::scalar::{Dual, Real};
 use wakeflight::numerics::tables::Grid;
 use wakeflight::rotor::lag_damper::LagDamper;
+use wakeflight::rotor::sense::Sense;
 use wakeflight::rotor::swashplate::Rigging;
 
 pub const OMEGA: f64 = 27.0;
@@ -183,9 +185,10 @@ pub fn aircraft_data(blade: BladeProperties, airfoil: Airfoil) -> AircraftData {
             position: data_files::position(341.25, 0.0, 315.0),
             shaft_tilt_forward: 3f64.to_radians(),
             shaft_tilt_lateral: 0.0,
+            rotation: Sense::CounterClockwise,
             tip_loss_factor: 0.97,
             blade,
-            airfoil,
+            airfoil: SpanSections::uniform(airfoil),
             lag_damper: Some(lag_damper()),
         },
         rigging: rigging(),

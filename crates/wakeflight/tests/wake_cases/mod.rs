@@ -2,7 +2,9 @@
 #![allow(dead_code)]
 
 use std::f64::consts::{PI, TAU};
-use wakeflight::wake::{BladeState, HubMotion, RelaxationWake, TimeMarchingWake, WakeOptions};
+use wakeflight::wake::{
+    BladeState, HubMotion, RelaxationOptions, RelaxationWake, TimeMarchingWake, WakeOptions,
+};
 
 pub const RADIUS: f64 = 8.0;
 pub const OMEGA: f64 = 27.0;
@@ -18,12 +20,12 @@ pub fn options() -> WakeOptions {
 
 /// Hover: five turns and a far wake.
 pub fn hover_options() -> WakeOptions {
-    WakeOptions { turns: 5.0, far_wake_turns: 2, relaxation: 0.3, ..options() }
+    WakeOptions { turns: 5.0, far_wake_turns: 2, ..options() }
 }
 
 /// Uniform circulation of a thrust coefficient: 2 pi C_T omega R^2 / (n_blades (1 - cutout^2)).
 pub fn uniform_circulation(options: &WakeOptions, ct: f64) -> f64 {
-    TAU * ct * OMEGA * RADIUS * RADIUS / (options.n_blades as f64 * (1.0 - CUTOUT * CUTOUT))
+    TAU * ct * OMEGA * RADIUS * RADIUS / (options.rotor.n_blades as f64 * (1.0 - CUTOUT * CUTOUT))
 }
 
 /// Hub velocity from the advance ratio and the descent, rates p, q, r (nose frame: x forward, y right, z down) over omega.
@@ -34,9 +36,15 @@ pub fn hub(mu: f64, descent: f64, p: f64, q: f64, r: f64) -> HubMotion {
     }
 }
 
+/// Share of a new geometry taken in a sweep: less where turns are repeated.
+pub fn own(options: &WakeOptions) -> RelaxationOptions {
+    let relaxation = if options.far_wake_turns > 0 { 0.3 } else { 0.5 };
+    RelaxationOptions { relaxation, ..RelaxationOptions::default() }
+}
+
 pub fn relaxation(options: &WakeOptions, hub: HubMotion, ct: f64, mean_inflow: f64) -> RelaxationWake {
-    let n = options.steps_per_revolution;
-    let mut wake = RelaxationWake::new(options.clone(), hub, mean_inflow).unwrap();
+    let n = options.steps_per_revolution();
+    let mut wake = RelaxationWake::new(*options, own(options), hub, mean_inflow).unwrap();
     let gamma = uniform_circulation(options, ct);
     wake.set_state(hub, &vec![(0.0, 0.0); n], &vec![gamma; n * options.n_stations]).unwrap();
     wake
@@ -54,10 +62,11 @@ pub fn settle(wake: &mut RelaxationWake, tolerance: f64, most: usize) -> usize {
 }
 
 pub fn blades(options: &WakeOptions, step: usize) -> Vec<BladeState> {
-    (0..options.n_blades)
+    (0..options.rotor.n_blades)
         .map(|b| BladeState {
             psi: TAU
-                * (step as f64 / options.steps_per_revolution as f64 + b as f64 / options.n_blades as f64),
+                * (step as f64 / options.steps_per_revolution() as f64
+                    + b as f64 / options.rotor.n_blades as f64),
             ..Default::default()
         })
         .collect()
@@ -66,9 +75,9 @@ pub fn blades(options: &WakeOptions, step: usize) -> Vec<BladeState> {
 /// One revolution; `start` is the step count so far. Returns the inflow map (n_azimuths, n_stations) of blade 1 and the
 /// largest odd-even monitor.
 pub fn revolution(wake: &mut TimeMarchingWake, hub: HubMotion, ct: f64, start: usize) -> (Vec<f64>, f64) {
-    let options = wake.options().clone();
-    let (n, n_r) = (options.steps_per_revolution, options.n_stations);
-    let circulation = vec![uniform_circulation(&options, ct); options.n_blades * n_r];
+    let options = *wake.options();
+    let (n, n_r) = (options.steps_per_revolution(), options.n_stations);
+    let circulation = vec![uniform_circulation(&options, ct); options.rotor.n_blades * n_r];
     let mut map = vec![0.0; n * n_r];
     let mut odd_even: f64 = 0.0;
     for step in start + 1..=start + n {

@@ -4,11 +4,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 from ...errors import InputError
-from ...inflow import DynamicInflow, InflowModel, RelaxationWake, TimeMarchingWake
+from ...inflow import InflowModel
+from ...options import DECLARED, options_of
 from ...units import quantity
 from ..case import Case
 
@@ -43,18 +44,32 @@ class Parameter:
     high: float = math.inf
 
 
+def _clause(meaning: str) -> str:
+    """First clause of a sentence, to stand within another."""
+    clause = meaning.split(";")[0].split(",")[0].rstrip(".")
+    return clause[0].lower() + clause[1:]
+
+
+def _of_the_inflow() -> tuple[Parameter, ...]:
+    """The discretisations among the options of the inflow models, as the core declares them."""
+    return tuple(
+        Parameter(
+            told.name,
+            option.name,
+            "inflow",
+            "angle" if option.is_angle else "whole" if option.kind == "whole" else "number",
+            "larger" if told.larger else "smaller",
+            told.order,
+            _clause(option.meaning),
+            told.physical,
+        )
+        for option in DECLARED
+        if (told := option.refinement) is not None
+    )
+
+
 PARAMETERS: tuple[Parameter, ...] = (
-    Parameter("azimuth-step", "azimuth_step", "inflow", "angle", "smaller", 2.0, "step of azimuth, wake age and coupling"),
-    Parameter("wake-turns", "turns", "inflow", "number", "larger", None, "length of the free filaments in turns"),
-    Parameter("far-wake-turns", "far_wake_turns", "inflow", "whole", "larger", None, "turns of far wake behind them"),
-    Parameter("core-radius", "core_radius", "inflow", "number", "smaller", None, "core at release over R", physical=True),
-    Parameter(
-        "core-growth", "core_growth", "inflow", "number", "smaller", None, "growth of (core/R)² per radian", physical=True
-    ),
-    Parameter("stations", "n_stations", "inflow", "whole", "larger", 2.0, "blade stations"),
-    Parameter("near-wake-segments", "near_wake_segments", "inflow", "whole", "larger", 2.0, "segments along the near wake"),
-    Parameter("convergence-revolutions", "convergence_revolutions", "inflow", "whole", "larger", None, "before the flight"),
-    Parameter("inflow-tolerance", "inflow_tolerance", "inflow", "number", "smaller", 1.0, "inflow against circulation"),
+    *_of_the_inflow(),
     Parameter("modes", "n_modes", "aircraft", "whole", "larger", None, "modes of a blade"),
     Parameter("elements", "n_elements", "aircraft", "whole", "larger", 4.0, "finite elements of a blade"),
     Parameter("gauss-points", "n_gauss", "aircraft", "whole", "larger", None, "quadrature points of an element"),
@@ -125,20 +140,19 @@ def _setting(chosen: Parameter, value: Any) -> Setting:
 def applied(chosen: Parameter, setting: Setting, case: Case) -> Case:
     """`case` with the setting, checked as everything that is typed."""
     if chosen.part == "inflow":
-        known = {field.name for field in fields(case.inflow)}
-        if chosen.option not in known:
+        if chosen.option not in options_of(case.inflow.name):
             raise InputError.of("vary", chosen.name, f"not an option of inflow {case.inflow.name}")
         return replace(case, inflow=replace(case.inflow, **{chosen.option: setting.argument}))
     if chosen.part == "aircraft":
         return replace(case, aircraft=case.aircraft.discretised(**{chosen.option: setting.argument}))
-    if chosen.option == "control_tolerance" and isinstance(case.inflow, DynamicInflow):
+    if chosen.option == "control_tolerance" and case.inflow.is_dynamic:
         raise InputError.of("vary", chosen.name, "a trim with inflow dynamic does not iterate")
     return replace(case, **{chosen.option: setting.argument})
 
 
 def tightened(chosen: Parameter, inflow: InflowModel) -> InflowModel:
     """Inflow model of a trim with its iterations tight, unless they are what is varied."""
-    if not isinstance(inflow, RelaxationWake) or chosen.option == "inflow_tolerance":
+    if not inflow.is_relaxed or chosen.option == "inflow_tolerance":
         return inflow
     tolerance = min(inflow.inflow_tolerance, INFLOW_TOLERANCE)
     return replace(inflow, inflow_tolerance=tolerance, max_loops=max(inflow.max_loops, 100))
@@ -152,5 +166,5 @@ def check_run(chosen: Parameter, run: str, inflow: InflowModel) -> None:
         raise InputError.of("vary", chosen.name, "not a discretisation of the blade's modes; allowed: elements")
     if run == "trim" and (chosen.part == "flight" or chosen.name == "convergence-revolutions"):
         raise InputError.of("vary", chosen.name, "not a discretisation of a trim: choose a manoeuvre")
-    if chosen.name == "convergence-revolutions" and not isinstance(inflow, TimeMarchingWake):
+    if chosen.name == "convergence-revolutions" and not inflow.is_marching:
         raise InputError.of("vary", chosen.name, f"not an option of inflow {inflow.name}")

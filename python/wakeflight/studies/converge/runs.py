@@ -10,7 +10,7 @@ import numpy as np
 
 from ...errors import InputError, NumericalFailure
 from ...flight import flown_steps
-from ...inflow import DynamicInflow, trim_model
+from ...inflow import trim_model
 from ...model import Model, flight_regime
 from ...modes import blade_modes
 from ...progress import Progress, Silent
@@ -245,9 +245,7 @@ def finished(done: Done) -> Done:
 def build(case: Case) -> Model:
     """The compiled model; what the physics core refuses becomes an error of the input."""
     inflow = case.inflow.resolved(flight_regime(case.aircraft, case.condition))
-    inflow.step(case.aircraft)
-    if not isinstance(inflow, DynamicInflow):
-        inflow.core_options(case.aircraft)
+    inflow.check_on(case.aircraft)
     try:
         return Model.build(case.aircraft, case.condition, inflow)
     except ValueError as reason:

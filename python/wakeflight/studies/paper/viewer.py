@@ -16,6 +16,8 @@ from typing import TYPE_CHECKING, Any
 import matplotlib
 import numpy as np
 
+from ...results.disk import area_weights, element_widths
+
 if TYPE_CHECKING:
     import xarray as xr
 
@@ -94,14 +96,15 @@ def _model(name: str, run: xr.Dataset, moments: np.ndarray, strongest: float) ->
 
 
 def disk_inflow(run: xr.Dataset, rows: np.ndarray) -> np.ndarray:
-    """Mean, cosine and sine of the inflow at some records (n, 3): least squares of λ0 + r (λ1c cos ψ + λ1s sin ψ)."""
+    """Mean, cosine and sine of the inflow at some records (n, 3): least squares by area of λ0 + r (λ1c cos ψ + λ1s sin ψ)."""
     station = run["station"].values
+    root = np.sqrt(area_weights(station, element_widths(station)))
     fits = []
     for k in rows:
         psi = run["azimuth"].values[k][:, None]
         columns = [np.ones((psi.size, station.size)), np.cos(psi) * station, np.sin(psi) * station]
-        matrix = np.stack([column.ravel() for column in columns], axis=1)
-        fits.append(np.linalg.lstsq(matrix, run["inflow"].values[k].ravel(), rcond=None)[0])
+        matrix = np.stack([(column * root).ravel() for column in columns], axis=1)
+        fits.append(np.linalg.lstsq(matrix, (run["inflow"].values[k] * root).ravel(), rcond=None)[0])
     return np.array(fits)
 
 

@@ -3,7 +3,7 @@
 //! Circulation from the motion and the far inflow, the wake one step further, the far inflow anew, the circulation again:
 //! one call, with the near wakes of the blades found once.
 
-use super::{Held, Lattice, Place, SteadyWake, Tips, over_step, row};
+use super::{Held, Lattice, Place, SteadyWake, Tips, over_step, row, steps_of};
 use crate::inflow::disk::{DiskMean, LiftingDisk};
 use crate::rotor::circulation::{BladeInstant, NearWake};
 use crate::rotor::hub::Rotor;
@@ -14,18 +14,6 @@ use crate::wake::{
     tip_rows,
 };
 use serde::{Deserialize, Serialize};
-
-/// What may be done beyond the plain exchange.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct ExchangeOptions {
-    /// Passes after the step in which circulation and far inflow are found again, the wake held.
-    pub recorrect: usize,
-    /// Whether the far inflow is carried on linearly in azimuth: by half a step for the inflow held over the next step, by
-    /// a whole one for the circulation at its end.
-    pub extrapolate: bool,
-    /// Steps over which a map by azimuth is held, as with a relaxation wake; none: the inflow is anew at every step.
-    pub hold: Option<usize>,
-}
 
 /// What an exchange saw.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -59,7 +47,6 @@ impl Place<'_> {
 pub struct MarchingExchange {
     /// The wake.
     pub wake: TimeMarchingWake,
-    options: ExchangeOptions,
     /// Far inflow at the stations (n_blades, n_stations).
     pub lambda_far: Vec<f64>,
     before: Option<Vec<f64>>,
@@ -81,8 +68,9 @@ pub struct MarchingExchange {
     /// Inflow and circulation at the latest passage of every azimuth (n_azimuths, ...).
     passages: Vec<f64>,
     passed_circulation: Vec<f64>,
-    /// The map that is held, where one is.
+    /// The map that is held, where one is, and the steps that it is held for.
     held_map: Vec<f64>,
+    hold: Option<usize>,
     #[serde(skip)]
     blades: Vec<BladeInstant>,
     #[serde(skip)]
@@ -93,7 +81,7 @@ pub struct MarchingExchange {
 
 impl MarchingExchange {
     /// `wake`, started from the periodic one of `start` with blade 1 at azimuth zero.
-    pub fn new(wake: TimeMarchingWake, options: ExchangeOptions, start: &SteadyWake, rotor: &Rotor) -> Self {
+    pub fn new(wake: TimeMarchingWake, start: &SteadyWake, rotor: &Rotor) -> Self {
         let (n, n_stations, width) = (start.n_azimuths(), wake.options().n_stations, start.width());
         let rows = |map: &[f64], width: usize| -> Vec<f64> {
             let at = |b: usize| row(0, b, rotor.n_blades, n) * width;
@@ -101,8 +89,8 @@ impl MarchingExchange {
         };
         let lambda_far = rows(&start.lambda_far, n_stations);
         Self {
+            hold: wake.own().update_interval.map(|interval| steps_of(interval, n)),
             wake,
-            options,
             far_held: lambda_far.clone(),
             lambda_far,
             before: None,
@@ -140,7 +128,7 @@ impl MarchingExchange {
     /// per revolution.
     pub(super) fn held(&self, step: usize) -> Held {
         let width = self.inflow.len() / self.disk.n_blades;
-        let (inflow, map) = match self.options.hold {
+        let (inflow, map) = match self.hold {
             None => (self.inflow.clone(), &self.passages),
             Some(_) => (over_step(&self.held_map, width, step, self.disk.n_blades), &self.held_map),
         };
@@ -157,14 +145,14 @@ impl MarchingExchange {
         self.place(at.rotor, blades, &hub)?;
         let mut followed = self.solve(at, true)?;
         let step = self.wake.step(hub, &self.states, &self.circulation)?;
-        self.renew_far(self.options.recorrect == 0);
+        self.renew_far(self.wake.own().recorrect == 0);
         followed += self.solve(at, false)?;
-        for pass in 0..self.options.recorrect {
+        for pass in 0..self.wake.own().recorrect {
             self.wake.set_circulation(&self.circulation)?;
-            self.find_far(pass + 1 == self.options.recorrect);
+            self.find_far(pass + 1 == self.wake.own().recorrect);
             followed += self.solve(at, false)?;
         }
-        if self.options.extrapolate {
+        if self.wake.own().extrapolate {
             self.hold_extrapolated(at)?;
         }
         self.report = Some(ExchangeReport {
@@ -210,7 +198,7 @@ impl MarchingExchange {
             self.passed_circulation[k * n_stations..(k + 1) * n_stations]
                 .copy_from_slice(&self.circulation[b * n_stations..(b + 1) * n_stations]);
         }
-        if self.options.hold.is_some_and(|every| self.step.is_multiple_of(every)) {
+        if self.hold.is_some_and(|every| self.step.is_multiple_of(every)) {
             self.held_map.clone_from(&self.passages);
         }
     }
@@ -266,7 +254,7 @@ impl MarchingExchange {
     /// Far inflow `steps` ahead, linear in azimuth from its last two values.
     fn far_ahead(&mut self, steps: f64) {
         self.far_held.copy_from_slice(&self.lambda_far);
-        if let (true, Some(before)) = (self.options.extrapolate, &self.before) {
+        if let (true, Some(before)) = (self.wake.own().extrapolate, &self.before) {
             for (held, old) in self.far_held.iter_mut().zip(before) {
                 *held += steps * (*held - old);
             }

@@ -8,9 +8,9 @@ pub mod marching;
 pub mod relaxation;
 pub mod steady;
 
-pub use marching::{ExchangeOptions, ExchangeReport, MarchingExchange};
-pub use relaxation::{RelaxationExchange, Renewal};
-pub use steady::{Changes, Iteration, Settling, SteadyWake};
+pub use marching::{ExchangeReport, MarchingExchange};
+pub use relaxation::RelaxationExchange;
+pub use steady::{Changes, Iteration, SteadyWake};
 
 use super::circulation::BladeInstant;
 use super::hub::Rotor;
@@ -161,6 +161,11 @@ pub fn row(step: usize, b: usize, n_blades: usize, n: usize) -> usize {
 /// Azimuth [rad] of row `k` of `n`.
 pub fn azimuth(k: usize, n: usize) -> f64 {
     TAU * k as f64 / n as f64
+}
+
+/// Steps of azimuth in an interval [rad] of which a revolution has `n`.
+fn steps_of(interval: f64, n: usize) -> usize {
+    (interval / TAU * n as f64).round() as usize
 }
 
 /// Mean of a map (n_azimuths, width) over the step that begins: of its rows at the two ends, so that it does not lag.

@@ -1,22 +1,13 @@
 //! The relaxation wake in flight: the motion of the last revolution taken as steady, the wake renewed when it is due.
 
-use super::{Held, Lattice, Reached, SteadyWake, Tips, azimuth, over_step, row};
+use super::{Held, Lattice, Reached, SteadyWake, Tips, azimuth, over_step, row, steps_of};
 use crate::blade::MAX_MODES;
 use crate::blade::kinematics::ModalMotion;
 use crate::inflow::disk::DiskMean;
 use crate::rotor::circulation::BladeInstant;
 use crate::rotor::hub::Rotor;
-use crate::wake::{RelaxationWake, WakeError, tip_rows};
+use crate::wake::{RelaxationOptions, RelaxationWake, WakeError, tip_rows};
 use serde::{Deserialize, Serialize};
-
-/// When a relaxation wake is renewed in flight, and how far it is taken.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Renewal {
-    /// Steps of azimuth from one renewal to the next.
-    pub every: usize,
-    /// Iterations of a renewal at most.
-    pub most: usize,
-}
 
 /// Modal coordinates and rates of a blade at an azimuth.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
@@ -38,7 +29,10 @@ pub struct RelaxationExchange {
     pub steady: SteadyWake,
     n_blades: usize,
     area: DiskMean,
-    renewal: Renewal,
+    /// Steps of azimuth from one renewal to the next.
+    every: usize,
+    /// Iterations of a renewal at most.
+    most: usize,
     /// Latest passage of a blade at every azimuth.
     passages: Vec<Passage>,
     /// Renewals so far.
@@ -48,14 +42,16 @@ pub struct RelaxationExchange {
 }
 
 impl RelaxationExchange {
-    /// From the wake of a trim and the periodic motion of its blades (n_azimuths,); counts begin anew.
+    /// From the wake of a trim and the periodic motion of its blades (n_azimuths,), renewed as its `own` options say; counts begin
+    /// anew.
     pub fn new(mut steady: SteadyWake, rotor: &Rotor, renewal: Renewal, motion: &[ModalMotion<f64>]) -> Self {
         (steady.sweeps, steady.followed) = (0, 0);
         Self {
             steady,
             n_blades: rotor.n_blades,
             area: rotor.disk_mean(),
-            renewal,
+            every: steps_of(own.update_interval, motion.len()).max(1),
+            most: own.max_loops_response,
             passages: motion.iter().map(Passage::from).collect(),
             updates: 0,
             unconverged: 0,
@@ -64,7 +60,7 @@ impl RelaxationExchange {
 
     /// Whether the wake is renewed at `step`.
     pub fn renews(&self, step: usize) -> bool {
-        step.is_multiple_of(self.renewal.every)
+        step.is_multiple_of(self.every)
     }
 
     pub(super) fn held(&self, step: usize) -> Held {
@@ -92,7 +88,7 @@ impl RelaxationExchange {
                 control: *control,
             })
             .collect();
-        let converged = self.steady.converge(&reached.place, &blades, self.renewal.most)?;
+        let converged = self.steady.converge(&reached.place, &blades, self.most)?;
         self.updates += 1;
         self.unconverged += u64::from(!converged);
         Ok(())

@@ -7,7 +7,7 @@ use super::Place;
 use crate::inflow::disk::{DiskMean, LiftingDisk};
 use crate::rotor::circulation::BladeInstant;
 use crate::rotor::hub::Rotor;
-use crate::wake::{RelaxationWake, WakeError, WakeOptions};
+use crate::wake::{RelaxationOptions, RelaxationWake, WakeError, WakeOptions};
 use serde::{Deserialize, Serialize};
 
 /// Growth of the change of inflow over its least, at which a smaller share of each change is taken.
@@ -26,21 +26,6 @@ const LEAST_RELAXATION: f64 = 0.25;
 const SETTLING: usize = 5;
 /// Passes whose means are averaged at most: they scatter by several tolerances, the mean of eight moves by an eighth of that.
 const PASSES_OF_MEAN: usize = 8;
-
-/// How a steady wake is brought to rest.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Settling {
-    /// Sweeps of the geometry in an iteration.
-    pub sweeps: usize,
-    /// Share of a new geometry taken in a sweep.
-    pub relaxation: f64,
-    /// Share of a change of inflow taken in an iteration.
-    pub inflow_relaxation: f64,
-    /// Change of inflow over the tip speed (rms) at which it rests.
-    pub inflow_tolerance: f64,
-    /// Whether shorter steps of the geometry are taken where it circles.
-    pub steadied: bool,
-}
 
 /// Changes of an iteration, or the largest of them that count as rest.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -67,8 +52,11 @@ pub struct Iteration {
 /// Relaxation wake, circulation by azimuth and inflow by azimuth of a periodic motion.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct SteadyWake {
+    #[serde(with = "crate::wake::options::whole")]
     options: WakeOptions,
-    settling: Settling,
+    own: RelaxationOptions,
+    /// Whether shorter steps of the geometry are taken where it circles.
+    steadied: bool,
     disk: LiftingDisk,
     area: DiskMean,
     /// The wake; none before the first motion is known.
@@ -98,11 +86,18 @@ pub struct SteadyWake {
 }
 
 impl SteadyWake {
-    /// On an inflow map (n_azimuths, n_stations) from elsewhere.
-    pub fn new(options: WakeOptions, settling: Settling, rotor: &Rotor, inflow: Vec<f64>) -> Self {
+    /// On an inflow map (n_azimuths, n_stations) from elsewhere; `steadied`: shorter steps of the geometry where it circles.
+    pub fn new(
+        options: WakeOptions,
+        own: RelaxationOptions,
+        steadied: bool,
+        rotor: &Rotor,
+        inflow: Vec<f64>,
+    ) -> Self {
         Self {
             options,
-            settling,
+            own,
+            steadied,
             disk: rotor.lifting_disk(),
             area: rotor.disk_mean(),
             wake: None,
@@ -150,7 +145,7 @@ impl SteadyWake {
     /// Geometry and inflow move in proportion to the step that is taken of the geometry: less of it is no rest.
     pub fn allowed(&self) -> Changes {
         Changes {
-            inflow: self.step_share * self.settling.inflow_tolerance,
+            inflow: self.step_share * self.own.inflow_tolerance,
             thrust: THRUST_TOLERANCE,
             first_turn: self.step_share * FIRST_TURN_TOLERANCE,
         }
@@ -166,7 +161,7 @@ impl SteadyWake {
     ) -> Result<bool, WakeError> {
         if self.wake.is_none() {
             let mean = self.mean_inflow();
-            self.wake = Some(RelaxationWake::new(self.options.clone(), place.wake_hub(), mean)?);
+            self.wake = Some(RelaxationWake::new(self.options, self.own, place.wake_hub(), mean)?);
             // before there is a wake, the map given serves as total inflow
             self.sections_at_the_map(place, blades);
         } else {
@@ -176,7 +171,7 @@ impl SteadyWake {
             blades.iter().map(|b| place.rotor.equivalent_angles(&b.modal)).collect();
         let mut thrust = self.disk.thrust_integral(&self.circulation);
         self.converged = false;
-        let (mut share, mut least) = (self.settling.inflow_relaxation, f64::INFINITY);
+        let (mut share, mut least) = (self.own.inflow_relaxation, f64::INFINITY);
         let (mut missing, mut since) = (f64::INFINITY, 0);
         let mut passed: Vec<Vec<f64>> = Vec::new();
         for iteration in 0..most {
@@ -202,11 +197,11 @@ impl SteadyWake {
                 break;
             }
             (missing, since) = if now < 0.9 * missing { (now, 0) } else { (missing, since + 1) };
-            if self.settling.steadied && since >= PATIENCE && self.step_share > LEAST_RELAXATION {
+            if self.steadied && since >= PATIENCE && self.step_share > LEAST_RELAXATION {
                 // rolled-up wakes circle about their answer: shorter steps of the geometry bring them to it
                 self.shorten_steps()?;
                 (missing, since) = (f64::INFINITY, 0);
-            } else if self.settling.steadied && self.step_share == LEAST_RELAXATION && iteration >= SETTLING {
+            } else if self.steadied && self.step_share == LEAST_RELAXATION && iteration >= SETTLING {
                 passed.push(self.lambda_far.clone());
             }
         }
@@ -227,7 +222,7 @@ impl SteadyWake {
         };
         wake.set_state(hub, angles, &self.circulation)?;
         wake.set_mean_inflow(carrying)?;
-        let norms = wake.sweep(self.settling.sweeps)?;
+        let norms = wake.sweep(self.own.sweeps)?;
         self.sweeps += norms.len() as u64;
         let (geometry, first_turn) = norms.last().map_or((0.0, 0.0), |n| (n.all, n.first_turn));
         let far = wake.inflow_far();
@@ -237,7 +232,7 @@ impl SteadyWake {
     fn shorten_steps(&mut self) -> Result<(), WakeError> {
         self.step_share = (0.5 * self.step_share).max(LEAST_RELAXATION);
         match self.wake.as_mut() {
-            Some(wake) => wake.set_relaxation(self.step_share * self.settling.relaxation),
+            Some(wake) => wake.set_relaxation(self.step_share * self.own.relaxation),
             None => Ok(()),
         }
     }

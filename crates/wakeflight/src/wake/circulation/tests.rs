@@ -14,7 +14,7 @@ fn thin_sections_are_solved_in_one_step() {
     // Gamma = k (alpha0 - lambda): linear, (1 + k N) Gamma = k (alpha0 - lambda_far)
     let (options, matrix) = rotor();
     let n = options.n_stations;
-    let slope = 2.9 * options.chord * options.tip_speed();
+    let slope = 2.9 * options.rotor.chord * options.tip_speed();
     let far = vec![0.05; n];
     let section = |lambda: &[f64], gamma: &mut [f64], derivative: &mut [f64]| {
         for i in 0..n {
@@ -22,7 +22,7 @@ fn thin_sections_are_solved_in_one_step() {
             derivative[i] = -slope;
         }
     };
-    let floor = vec![-3.0 * options.chord * options.tip_speed(); n];
+    let floor = vec![-3.0 * options.rotor.chord * options.tip_speed(); n];
     let solution = solve_circulation(&far, &matrix, section, &vec![0.0; n], &floor, 1e-9).unwrap();
     assert!(solution.converged() && solution.iterations <= 2, "{solution:?}");
     for i in 0..n {
@@ -40,7 +40,7 @@ fn stalled_sections_are_solved() {
     // lift that breaks and recovers: slopes of the wrong sign are clipped
     let (options, matrix) = rotor();
     let n = options.n_stations;
-    let k = options.chord * options.tip_speed();
+    let k = options.rotor.chord * options.tip_speed();
     let lift = |a: f64| 5.7 * 0.5 * a / (1.0 + (a / 0.25).powi(4)).sqrt();
     let section = |lambda: &[f64], gamma: &mut [f64], derivative: &mut [f64]| {
         for i in 0..n {
@@ -89,32 +89,32 @@ fn every_problem_within_reach_of_a_helicopter_has_a_solution_and_it_is_found() {
         let near = near_wake_matrix(&options, &hub, &state).unwrap();
         let pitch: Vec<f64> = {
             let root = random(-0.3, 0.7);
-            grid.stations.iter().map(|r| root - 0.3 * r / options.radius).collect()
+            grid.stations.iter().map(|r| root - 0.3 * r / options.rotor.radius).collect()
         };
         let far: Vec<f64> = {
             let mean = random(-0.1, 0.1);
             (0..n).map(|_| mean + random(-0.05, 0.05)).collect()
         };
         let along: Vec<f64> =
-            grid.stations.iter().map(|r| options.omega * r + mu * tip_speed * psi.sin()).collect();
+            grid.stations.iter().map(|r| options.rotor.omega * r + mu * tip_speed * psi.sin()).collect();
         let speed = |i: usize, lambda: f64| (lambda * tip_speed).hypot(along[i]);
         let section = |lambda: &[f64], gamma: &mut [f64], slope: &mut [f64]| {
             for i in 0..n {
                 let (up, v) = (-lambda[i] * tip_speed, speed(i, lambda[i]));
                 let (cl, by_alpha) = kinked_lift(pitch[i] + up.atan2(along[i]));
-                gamma[i] = 0.5 * options.chord * v * cl;
-                slope[i] = -0.5 * options.chord * tip_speed * (up * cl + along[i] * by_alpha) / v;
+                gamma[i] = 0.5 * options.rotor.chord * v * cl;
+                slope[i] = -0.5 * options.rotor.chord * tip_speed * (up * cl + along[i] * by_alpha) / v;
             }
         };
         let far_off = random(0.0, 40.0);
         let start: Vec<f64> = (0..n).map(|_| random(-far_off, far_off)).collect();
-        let floor = vec![-3.0 * options.chord * tip_speed; n];
+        let floor = vec![-3.0 * options.rotor.chord * tip_speed; n];
         let solution = solve_circulation(&far, &near, section, &start, &floor, 1e-5).unwrap();
         assert!(solution.converged(), "mu {mu}, psi {}: {}", psi.to_degrees(), solution.residual);
         found[solution.found_by.unwrap() as usize] += 1;
         for i in 0..n {
             // |cl| is nowhere above 1.41
-            let most = 0.5 * options.chord * speed(i, solution.inflow[i]) * 1.41;
+            let most = 0.5 * options.rotor.chord * speed(i, solution.inflow[i]) * 1.41;
             assert!(solution.gamma[i].abs() <= most + 1e-5, "station {i}: {} of {most}", solution.gamma[i]);
         }
     }

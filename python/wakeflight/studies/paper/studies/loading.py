@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from ....plotting import histories
 from ....plotting.histories import DEG, Panel
 from ....plotting.style import styled
+from ....units import convert
 from ..cases import MODELS, Planned
 from ..statements import descent
 from .finding import Finding, verdict_changes
@@ -44,7 +45,7 @@ def finding(runs: Runs) -> Finding:
     flights = {m: runs[f"{CONDITION}/{m}"] for m in MODELS}
     changed = verdict_changes(base, descent.statements(flights))
     attrs = {"as flown": runs["arrested-descent/relaxation"].attrs, "as printed": flights["relaxation"].attrs}
-    feet = [f"{float(each['condition.altitude']) / 0.3048:.0f} ft" for each in attrs.values()]
+    feet = [f"{convert(float(each['condition.altitude']), 'm', 'ft'):.0f} ft" for each in attrs.values()]
     return Finding(
         "loading",
         "The printed blade loading",

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ....._core import standard_atmosphere
+from .....units import STANDARD_GRAVITY, convert
 from ... import cost
 from ... import quantities as q
 from ...cases import CAPS, cap_name
@@ -20,7 +21,6 @@ if TYPE_CHECKING:
 
 PRINTED = 0.071
 """C_T/σ in the paper."""
-FOOT, POUND_FORCE = 0.3048, 4.4482216152605
 LIKE = 0.3
 """Share by which two amounts of work, or two distances, may differ and still be of a size."""
 
@@ -35,10 +35,11 @@ def loading(runs: Runs) -> str:
     for _ in range(60):
         middle = 0.5 * (low + high)
         low, high = (middle, high) if standard_atmosphere(middle)[0] > wanted else (low, middle)
-    weight = float(attrs["condition.gross_mass"]) * 9.80665 / POUND_FORCE
+    weight = float(attrs["condition.gross_mass"]) * STANDARD_GRAVITY
     return (
-        f"{weight:.0f} lb in the standard atmosphere at {altitude / FOOT:.0f} ft is C_T/σ = {found:.4f} for the "
-        f"{attrs['aircraft']}'s rotor; the printed value fits about {round(low / FOOT, -2):.0f} ft."
+        f"{convert(weight, 'N', 'lbf'):.0f} lb in the standard atmosphere at {convert(altitude, 'm', 'ft'):.0f} ft is "
+        f"C_T/σ = {found:.4f} for the "
+        f"{attrs['aircraft']}'s rotor; the printed value fits about {round(convert(low, 'm', 'ft'), -2):.0f} ft."
     )
 
 

@@ -1,0 +1,79 @@
+//! Options of the inflow models: told to Python, and read from it.
+
+use crate::wake::py_error;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use serde::Deserialize;
+use wakeflight::inflow::AnnularOptions;
+use wakeflight::wake::{MarchingOptions, RelaxationOptions, WakeOptions, WakeRotor};
+
+/// Options of one model as Python gives them, group by group.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct Given {
+    rotor: Option<WakeRotor>,
+    wake: WakeOptions,
+    relaxation: Option<RelaxationOptions>,
+    marching: Option<MarchingOptions>,
+    annular: Option<AnnularOptions>,
+}
+
+fn read(options_json: &str) -> PyResult<Given> {
+    serde_json::from_str(options_json).map_err(|e| PyValueError::new_err(format!("wake options: {e}")))
+}
+
+fn demanded<T>(group: Option<T>, name: &str) -> PyResult<T> {
+    group.ok_or_else(|| PyValueError::new_err(format!("wake options: those of {name} are missing")))
+}
+
+/// Options that both free wakes share, with their rotor.
+pub(crate) fn wake_options(options_json: &str) -> PyResult<WakeOptions> {
+    let Given { rotor, wake, .. } = read(options_json)?;
+    Ok(WakeOptions { rotor: demanded(rotor, "the rotor")?, ..wake })
+}
+
+/// Options of relaxation.
+pub(crate) fn relaxation_options(options_json: &str) -> PyResult<RelaxationOptions> {
+    demanded(read(options_json)?.relaxation, "relaxation")
+}
+
+/// Options of marching, for a wake that starts from one of the shared options `of`.
+pub(crate) fn marching_options(options_json: &str, of: &WakeOptions) -> PyResult<MarchingOptions> {
+    if wake_options(options_json)? != *of {
+        return Err(PyValueError::new_err("wake options: not those of the wake that the march starts from"));
+    }
+    demanded(read(options_json)?.marching, "marching")
+}
+
+/// What is told of every option, as JSON: a list of objects, see `wakeflight.options`.
+#[pyfunction]
+fn option_descriptors() -> PyResult<String> {
+    let groups = [
+        WakeOptions::descriptors(),
+        RelaxationOptions::descriptors(),
+        MarchingOptions::descriptors(),
+        AnnularOptions::descriptors(),
+    ];
+    serde_json::to_string(&groups.concat()).map_err(|e| PyValueError::new_err(e.to_string()))
+}
+
+/// Refuses options that do not go together, and with a rotor those that do not go with it.
+#[pyfunction]
+fn check_options(options_json: &str) -> PyResult<()> {
+    let given = read(options_json)?;
+    let wake = match given.rotor {
+        Some(rotor) => WakeOptions { rotor, ..given.wake },
+        None => given.wake,
+    };
+    let checked = given.rotor.map_or_else(|| wake.check_alone(), |_| wake.validate());
+    let relaxation = given.relaxation.map_or(Ok(()), |own| own.validate());
+    let marching = given.marching.map_or(Ok(()), |own| own.validate(&wake));
+    let annular = given.annular.map_or(Ok(()), |own| own.check());
+    checked.and(relaxation).and(marching).and(annular).map_err(py_error)
+}
+
+/// Adds this file's functions to the module.
+pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
+    m.add_function(wrap_pyfunction!(option_descriptors, m)?)?;
+    m.add_function(wrap_pyfunction!(check_options, m)?)
+}
