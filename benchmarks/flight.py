@@ -4,8 +4,8 @@ import numpy as np
 from measure import seconds, table
 
 import wakeflight as wf
-from wakeflight import flight as flying
 from wakeflight.integrators import consistent_rate
+from wakeflight.simulation import flight_model
 
 PHASES = ("seconds_trim", "seconds_convergence", "seconds_wake", "seconds_dynamics")
 
@@ -26,7 +26,7 @@ def dynamics(quick: bool) -> str:
 def derivatives(blades: str, repetitions: int) -> list[list[str]]:
     """Rows of `dynamics` for one kind of blades."""
     trimmed = start("dynamic", blades)
-    model = flying.flight_model(trimmed, None)
+    model = flight_model(trimmed, None)
     inputs, y = trimmed.inputs(), trimmed.state(0.0)
     y_dot = consistent_rate(model, 0.0, y, inputs)
     n = y.size

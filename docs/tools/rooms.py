@@ -24,7 +24,7 @@ ROOMS = {
     "report": ("report",),
     "plotting": ("plotting",),
     "export": ("export",),
-    "flight": ("flight*", "fly", "recorder", "simulation*", "integrators", "controls"),
+    "flight": ("flight*", "fly", "recorder", "simulation*", "snapshot", "integrators", "controls"),
     "tunnel": ("tunnel",),
     "trim": ("trim*",),
     "exchange": ("exchange", "wake_trim"),
@@ -33,18 +33,18 @@ ROOMS = {
     "aircraft": ("aircraft", "thinning"),
     "inputs": ("condition", "inflow", "maneuvers", "options", "presets", "regime", "units", "text"),
     "results": ("results",),
-    "basics": ("errors", "references", "progress"),
+    "basics": ("errors", "references", "progress", "views"),
 }
 """Rooms of Python and the modules in them; a module that is in none is a room of its own."""
 
 MEANING = {
-    "flight": "a manoeuvre flown from a trim: integrators, coupling in time, what is recorded",
+    "flight": "a simulation stepped, kept and continued; a manoeuvre flown with it; integrators, what is recorded",
     "trim": "the state in which the aircraft stays: unknowns, equations, free wake in the loop",
     "exchange": "what blades and wake give each other at every azimuth step",
     "model": "what is compiled of aircraft, condition and inflow; blade modes; vortices and wings by themselves",
     "monitors": "what is watched of a result, and its limits",
     "inputs": "condition, inflow models and their options, manoeuvres, units: what a user states",
-    "basics": "errors, bibliography, progress",
+    "basics": "errors, bibliography, progress, tables for notebooks",
     "_core": "the border: shapes and numbers checked, nothing calculated",
 }
 """Rooms whose text is not that of a package."""

@@ -25,6 +25,8 @@ if TYPE_CHECKING:
     from .maneuvers import Maneuver, arrested_descent, load_maneuver, roll_reversal
     from .modes import blade_modes
     from .references import bibtex
+    from .simulation import Simulation
+    from .snapshot import Snapshot
     from .studies.converge import converge
     from .trim import Trim, trim
     from .tunnel import Tunnel, tunnel
@@ -55,6 +57,8 @@ _HOME = {
     "roll_reversal": "maneuvers",
     "blade_modes": "modes",
     "bibtex": "references",
+    "Simulation": "simulation",
+    "Snapshot": "snapshot",
     "Trim": "trim",
     "trim": "trim",
     "Tunnel": "tunnel",
@@ -75,6 +79,8 @@ __all__ = [
     "NumericalFailure",
     "RelaxationWake",
     "Rotor",
+    "Simulation",
+    "Snapshot",
     "TimeMarchingWake",
     "Trim",
     "Tunnel",

@@ -1,76 +1,123 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""What the flight gets from an inflow model at every exchange, and what it gives: the three models behind one door."""
+"""What a flight or a stand gets from its inflow model at every exchange, and what it gives: one door to the core's state."""
 
 from __future__ import annotations
 
-from copy import copy
-from typing import TYPE_CHECKING
+from collections.abc import Callable
+from typing import Any, ClassVar, Protocol
 
 import numpy as np
 
 from . import _core
 from .model import CompiledRotor
 
-if TYPE_CHECKING:
-    from .wake_trim import WakeInTrim
+
+class Trimmed(Protocol):
+    """The wake of a trim."""
+
+    core: _core.SteadyWake
 
 
-class MarchingExchange:
-    """Time-marching free wake, exchanged every coupling step [ribera2004, bhagwat2001].
+class Exchange:
+    """An inflow model in flight. Maps by azimuth, far inflow, convection of the sheet, the wake itself are the core's."""
 
-    The exchange itself is one call of the core: circulation from states and held far inflow, wake one step, far inflow
-    anew, circulation again; `recorrect` and `extrapolate` of the model go beyond it.
-    """
+    marches: ClassVar[bool] = False
+    """Whether the wake goes through a convergence phase before the flight."""
 
-    def __init__(self, model: CompiledRotor, trimmed: WakeInTrim):
-        self.model = model
+    def __init__(self, model: CompiledRotor, core: _core.Exchange):
+        self.model, self.core = model, core
         self.n = model.steps_per_revolution
-        self.step_index = 0
-        rows = self.rows(0)
-        self.lambda_far = trimmed.lambda_far[rows]
-        self.circulation = trimmed.circulation[rows]
-        self.inflow = trimmed.inflow_map[rows]
-        self.core = _core.MarchingExchange(
-            trimmed.relaxation,
-            model.wake_options,
-            self.lambda_far,
-            self.circulation,
-            self.inflow,
-        )
-        # inflow at the latest passage of every azimuth, and the map held where it is renewed less often than every step
-        self.passages = trimmed.inflow_map.copy()
-        self.passed_circulation = trimmed.circulation.copy()
-        interval = model.inflow.update_interval
-        self.update_steps = None if interval is None else round(interval / (2 * np.pi) * self.n)
-        self._held_map: np.ndarray | None = None
-        self.monitors = {"max_displacement": 0.0, "odd_even": 0.0, "vortex_blade_distance": np.nan}
-        self.circulation_followed = 0
-        self._frozen: tuple | None = None
-
-    def copy(self) -> MarchingExchange:
-        """The same wake at the same moment, to be marched on its own."""
-        other = copy(self)
-        other.core = self.core.copy()
-        other.passages = self.passages.copy()
-        other.passed_circulation = self.passed_circulation.copy()
-        return other
 
     def rows(self, step: int) -> list[int]:
         """Azimuth index of every blade after `step` steps."""
         return [(step + b * self.n // self.model.n_blades) % self.n for b in range(self.model.n_blades)]
 
-    def held(self, step: int) -> tuple[np.ndarray, float]:
-        """Total inflow (n_blades, n_stations) over the step that begins, and the mean over the disk.
+    def held(self, step: int) -> tuple[np.ndarray | None, float]:
+        """Total inflow (n_blades, n_stations) over the step that begins, None where it is in the state, and its disk mean.
 
-        The mean is that of the latest passage of every azimuth: over the blades' present azimuths alone it would swing by
-        n per revolution. With `update_interval` a map by azimuth is held from one renewal to the next, as with a relaxation wake.
+        A marching wake's mean is that of the latest passage of every azimuth: over the blades' present azimuths alone it would
+        swing by n per revolution. A map by azimuth enters with the mean of its values at the two ends of the step.
         """
-        if self.update_steps is None:
-            return self.inflow, self.model.disk_mean(self.passages)
-        if self._held_map is None or step % self.update_steps == 0:
-            self._held_map = self.passages.copy()
-        rows = 0.5 * (self._held_map[self.rows(step)] + self._held_map[self.rows(step + 1)])
-        return rows, self.model.disk_mean(self._held_map)
+        return self.core.held(step)
+
+    def reach(
+        self,
+        step: int,
+        y: np.ndarray,
+        stick: np.ndarray,
+        stick_rate: np.ndarray,
+        motion: tuple[np.ndarray, np.ndarray] | None = None,
+    ) -> None:
+        """States have reached `step`: a marching wake follows, a relaxation wake is renewed where that is due.
+
+        motion: modal coordinates and rates (n_blades, n_modes) that stand for those of `y`.
+        """
+        self.core.advance(self.model.core, step, y, (stick, stick_rate), motion)
+
+    def tips(self, step: int) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
+        """Tip vortices after `step` steps, None without a wake.
+
+        Nodes (n_blades, n_ages, 3) [m], hub axes, their circulation (n_blades, n_ages) [m2/s], core radii of the segments
+        (n_blades, n_ages - 1) [m].
+        """
+        return self.core.tips(step)
+
+    def lattice(self, step: int) -> tuple[np.ndarray, np.ndarray] | None:
+        """Every trailer, root to tip: positions (n_blades, n_trailers, n_ages, 3) [m], hub axes, and circulation [m2/s]."""
+        return self.core.lattice(step)
+
+    @property
+    def monitors(self) -> dict[str, float]:
+        """What the last exchange saw: largest motion of a marker, odd-even content (over R), closest vortex (cores)."""
+        return self.core.monitors
+
+    @property
+    def counters(self) -> dict[str, int]:
+        """Counted work by name; empty without a wake."""
+        return self.core.counters
+
+    @property
+    def segment_evaluations(self) -> int:
+        """Counted evaluations of the segment law."""
+        return int(self.core.segment_evaluations)
+
+
+class MarchingExchange(Exchange):
+    """Time-marching free wake, exchanged every coupling step [ribera2004, bhagwat2001].
+
+    The exchange is one call of the core: circulation from states and held far inflow, wake one step, far inflow anew,
+    circulation again; `recorrect`, `extrapolate` and `update_interval` of the model go beyond it.
+    """
+
+    marches: ClassVar[bool] = True
+
+    def __init__(self, model: CompiledRotor, trimmed: Trimmed | None, core: _core.Exchange | None = None):
+        super().__init__(model, core or marching(model, trimmed))
+        self._frozen: tuple | None = None
+
+    def copy(self) -> MarchingExchange:
+        """The same wake at the same moment, to be marched on its own."""
+        return MarchingExchange(self.model, None, self.core.copy())
+
+    @property
+    def step_index(self) -> int:
+        """Steps since the start."""
+        return self.core.steps
+
+    @property
+    def inflow(self) -> np.ndarray:
+        """Total inflow that the wake gives (n_blades, n_stations), of thin sections at both lines of the chord."""
+        return self.core.inflow
+
+    @property
+    def circulation(self) -> np.ndarray:
+        """Bound circulation (n_blades, n_stations) [m2/s]."""
+        return self.core.circulation
+
+    @property
+    def lambda_far(self) -> np.ndarray:
+        """Inflow without that of the own near wake (n_blades, n_stations)."""
+        return self.core.lambda_far
 
     def advance(
         self,
@@ -79,136 +126,72 @@ class MarchingExchange:
         stick_rate: np.ndarray,
         motion: tuple[np.ndarray, np.ndarray] | None = None,
     ) -> np.ndarray:
-        """States have reached the next step; the wake follows. Returns the total inflow (n_blades, n_stations).
-
-        motion: modal coordinates and rates (n_blades, n_modes) that stand for those of `y`.
-        """
-        self.step_index += 1
-        rows = self.rows(self.step_index)
-        if self.model.inflow.inboard_wake == "sheet":
-            hub_velocity, _ = self.model.core.hub(y)
-            self.core.set_mean_inflow(self.model.carrying_inflow(self.passed_circulation, hub_velocity))
-        displacement, odd_even, distance, followed = self.core.advance(
-            self.model.core, y, stick, stick_rate, rows[0], motion
-        )
-        self.monitors = {
-            "max_displacement": displacement,
-            "odd_even": odd_even,
-            "vortex_blade_distance": distance,
-        }
-        self.circulation_followed += followed
-        self.lambda_far, self.circulation, self.inflow = (
-            self.core.lambda_far(),
-            self.core.circulation(),
-            self.core.inflow(),
-        )
-        self.passages[rows] = self.inflow
-        self.passed_circulation[rows] = self.circulation
+        """`reach` the next step; returns the total inflow (n_blades, n_stations)."""
+        self.reach(self.step_index + 1, y, stick, stick_rate, motion)
         return self.inflow
 
-    def frozen_step(self, problem: _core.TrimProblem, x: np.ndarray) -> tuple[list[int], np.ndarray, np.ndarray]:
-        """One step with states and controls of the trim, circulation following the inflow."""
-        core = self.model.core
-        if self._frozen is None or self._frozen[0] is not problem:
-            q, q_dot = core.trim_motion(problem, x, self.n)
-            self._frozen = (problem, q, q_dot, core.trim_state(problem, x, 0.0)[0])
-        _, q, q_dot, y = self._frozen
+    def turn(self, problem: Any, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """A revolution with states and controls of the trim, circulation following the inflow.
+
+        Inflow and circulation by azimuth (n, n_stations): means of all blades' passages.
+        """
+        motion, y = self._trimmed(problem, x)
+        return self.core.turn(self.model.core, y, x[: self.model.n_controls], motion)
+
+    def frozen_step(self, problem: Any, x: np.ndarray) -> tuple[list[int], np.ndarray, np.ndarray]:
+        """One such step: azimuth index of every blade, its inflow and circulation."""
+        (q, q_dot), y = self._trimmed(problem, x)
         rows = self.rows(self.step_index + 1)
         controls = x[: self.model.n_controls]
         self.advance(y, controls, np.zeros(len(controls)), (q[rows], q_dot[rows]))
         return rows, self.inflow, self.circulation
 
-    def periodic_map(self, records: list[tuple[list[int], np.ndarray, np.ndarray]]) -> tuple[np.ndarray, np.ndarray]:
-        """Inflow and circulation by azimuth (n, n_stations): mean of all blades' passages of a revolution."""
-        shape = (self.n, self.inflow.shape[1])
-        inflow, circulation = np.zeros(shape), np.zeros(shape)
-        for rows, lam, gamma in records:
-            inflow[rows] += lam
-            circulation[rows] += gamma
-        return inflow / self.model.n_blades, circulation / self.model.n_blades
+    def _trimmed(self, problem: Any, x: np.ndarray) -> tuple[tuple[np.ndarray, np.ndarray], np.ndarray]:
+        """Periodic motion (n, n_modes) and state of a trim."""
+        if self._frozen is None or self._frozen[0] is not problem:
+            core = self.model.core
+            self._frozen = (problem, core.trim_motion(problem, x, self.n), core.trim_state(problem, x, 0.0)[0])
+        return self._frozen[1:]
 
     def position(self) -> np.ndarray:
         """Tip vortices (n_blades, n_ages, 3) [m], hub axes."""
-        return self.core.position()
+        return self.tips(self.step_index)[0]
 
-    def marker_circulation(self, step: int) -> np.ndarray:
+    def marker_circulation(self) -> np.ndarray:
         """Circulation of the nodes of the tip vortices (n_blades, n_ages) [m2/s]."""
-        return self.core.marker_circulation()
+        return self.tips(self.step_index)[1]
 
-    def core_radius(self, step: int) -> np.ndarray:
-        """Core radii of the segments of the tip vortices (n_blades, n_ages - 1) [m]."""
-        return self.core.core_radius()
-
-    def lattice(self, step: int) -> tuple[np.ndarray, np.ndarray]:
-        """Every trailer, root to tip: positions (n_blades, n_trailers, n_ages, 3) [m], hub axes, and circulation [m2/s]."""
-        position = self.core.lattice()
-        return position, self.core.lattice_circulation().reshape(position.shape[:3])
-
-    @property
-    def segment_evaluations(self) -> int:
-        """Counted evaluations of the segment law."""
-        return int(self.core.segment_evaluations)
+    def wake(self) -> _core.TimeMarchingWake:
+        """A copy of the wake as it is now."""
+        return self.core.wake()
 
 
-class RelaxationExchange:
-    """Relaxation free wake in the response: inflow of the state taken as steady, renewed at every `update_interval`."""
+def marching(model: CompiledRotor, trimmed: Trimmed) -> _core.Exchange:
+    """A marching wake with the options of `model` from the periodic one of a trim."""
+    return _core.Exchange.marching(model.core, trimmed.core, model.wake_options)
 
-    def __init__(self, model: CompiledRotor, trimmed: WakeInTrim):
-        self.model = model
-        self.n = model.steps_per_revolution
-        self.trimmed = trimmed
-        self.inflow_map = trimmed.inflow_map
-        self.circulation_map = trimmed.circulation
-        self.update_steps = round(model.inflow.update_interval / (2 * np.pi) * self.n)
-        self.unconverged = 0
-        self.updates = 0
-        self._motion = [None] * self.n
 
-    def rows(self, step: int) -> list[int]:
-        """Azimuth index of every blade after `step` steps."""
-        return [(step + b * self.n // self.model.n_blades) % self.n for b in range(self.model.n_blades)]
+def relaxation(model: CompiledRotor, trimmed: Trimmed, motion: tuple[np.ndarray, np.ndarray]) -> _core.Exchange:
+    """The relaxation wake of a trim in flight; periodic motion (n, n_modes) of its blades."""
+    return _core.Exchange.relaxation(model.core, trimmed.core, motion, model.wake_options)
 
-    def remember(self, step: int, q: np.ndarray, q_dot: np.ndarray) -> None:
-        """Keep the motion of the blades (n_blades, n_modes) at their azimuths: the latest passage of each azimuth counts."""
-        for b, row in enumerate(self.rows(step)):
-            self._motion[row] = (q[b].copy(), q_dot[b].copy())
 
-    def renew(self, y: np.ndarray, stick: np.ndarray) -> None:
-        """Converge wake and circulation for the present hub motion, sticks and the blades' last passages."""
-        q = np.array([motion[0] for motion in self._motion])
-        q_dot = np.array([motion[1] for motion in self._motion])
-        options = self.model.inflow
-        converged = self.trimmed.converge_motion(y, stick, q, q_dot, options.max_loops_response)
-        self.updates += 1
-        self.unconverged += not converged
-        self.inflow_map, self.circulation_map = self.trimmed.inflow_map, self.trimmed.circulation
+def dynamic(model: CompiledRotor) -> _core.Exchange:
+    """Dynamic inflow, which is in the state."""
+    return _core.Exchange.dynamic(model.core, model.steps_per_revolution)
 
-    def inflow(self, step: int) -> np.ndarray:
-        """Inflow (n_blades, n_stations) over the step that begins: mean of the map at its two ends, so that it does not lag."""
-        return 0.5 * (self.inflow_map[self.rows(step)] + self.inflow_map[self.rows(step + 1)])
 
-    def position(self, step: int) -> np.ndarray:
-        """Tip vortices (n_blades, n_ages, 3) [m], hub axes, with the blades at their azimuths of `step`."""
-        return self.trimmed.relaxation.position()[self.rows(step)]
+def exchange_from(model: CompiledRotor, packed: bytes) -> Exchange:
+    """The exchange of `model` as it was when the core packed it."""
+    core = _core.Exchange.from_bytes(packed)
+    return MarchingExchange(model, None, core) if model.inflow.name == "time-marching" else Exchange(model, core)
 
-    def marker_circulation(self, step: int) -> np.ndarray:
-        """Circulation of the nodes of the tip vortices (n_blades, n_ages) [m2/s]: that of the azimuth of their release."""
-        relaxation = self.trimmed.relaxation
-        released = np.asarray(self.rows(step))[:, None] - np.arange(relaxation.position().shape[1])
-        return np.asarray(relaxation.tip_circulation())[released % self.n]
 
-    def core_radius(self, step: int) -> np.ndarray:
-        """Core radii of the segments of the tip vortices (n_blades, n_ages - 1) [m]."""
-        return self.trimmed.relaxation.core_radius()[self.rows(step)]
-
-    def lattice(self, step: int) -> tuple[np.ndarray, np.ndarray]:
-        """Every trailer as in `MarchingExchange.lattice`, with the blades at their azimuths of `step`."""
-        wake, rows = self.trimmed.relaxation, np.asarray(self.rows(step))
-        position = wake.lattice()[rows]
-        born = (rows[:, None] - np.arange(position.shape[2])) % self.n
-        return position, wake.released_circulation()[born].swapaxes(1, 2)
-
-    @property
-    def segment_evaluations(self) -> int:
-        """Counted evaluations of the segment law."""
-        return int(self.trimmed.relaxation.segment_evaluations)
+def exchange_of(model: CompiledRotor, trimmed: Trimmed | None, motion: Callable[[], Any]) -> Exchange:
+    """The exchange of `model` from the wake of a trim; `motion` gives the periodic motion of its blades."""
+    kinds: dict[str, Callable[[], Exchange]] = {
+        "dynamic": lambda: Exchange(model, dynamic(model)),
+        "relaxation": lambda: Exchange(model, relaxation(model, trimmed, motion())),
+        "time-marching": lambda: MarchingExchange(model, trimmed),
+    }
+    return kinds[model.inflow.name]()

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Protocol
+import json
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -17,8 +18,18 @@ class Integrator(Protocol):
     def consistent(self, t: float, y: np.ndarray, inputs: _core.Inputs) -> np.ndarray:
         """y_dot that satisfies F = 0 at the present state (t, y) with the inputs that begin there."""
 
+    @property
+    def begun(self) -> bool:
+        """Whether it has been started."""
+
     def start(self, t: float, y: np.ndarray, y_dot: np.ndarray) -> None:
         """Begin at a consistent state."""
+
+    def memory(self) -> bytes:
+        """What the steps to come depend on besides the state, exact."""
+
+    def recall(self, t: float, y: np.ndarray, memory: bytes) -> None:
+        """Go on at (t, y) with the `memory` of a solver of the same aircraft and tolerances."""
 
     def advance_to(self, t: float, inputs: _core.Inputs) -> None:
         """Integrate to `t` [s] with `inputs` held, and stop there."""
@@ -55,6 +66,9 @@ class IdaIntegrator:
     IDA asks for dF/dy + c dF/dy_dot whenever its step or order changes, some five times a coupling step. F is linearised
     where a coupling step begins, and its inertia again every few degrees from there (`KEPT`). Derivatives are the means by
     which IDA solves its equations: where they do not suffice, it takes a shorter step.
+
+    IDA's own memory (history, order, step, last derivatives) cannot be read. `memory` therefore starts it anew where it stands,
+    and `recall` does the same: both go on to the same bits, which are not those of a run that was not interrupted.
     """
 
     method = "BDF of variable step and order (SUNDIALS IDA)"
@@ -64,19 +78,39 @@ class IdaIntegrator:
         self.rtol = rtol
         self.atol = atol_scale * absolute_tolerances(model)
         self._inputs: _core.Inputs | None = None
-        self._linearised = model.linearised()
-        self._found_at = dict.fromkeys(KEPT, -np.inf)
         # a hair more, so that a step of as many degrees counts as that
         self._kept = {name: np.radians(angle) * (1.0 + 1e-6) / model.omega for name, angle in KEPT.items()}
-        self._rate: np.ndarray | None = None
         self._statistics = {"residual_evaluations": 0, "jacobians": 0}
+        self._forget()
+
+    def _forget(self) -> None:
+        """Nothing is known of the past."""
+        self._solver: Any = None
+        self._linearised = self.model.linearised()
+        self._found_at = dict.fromkeys(KEPT, -np.inf)
+        self._rate: np.ndarray | None = None
+
+    @property
+    def begun(self) -> bool:
+        """Whether it has been started."""
+        return self._solver is not None
+
+    def memory(self) -> bytes:
+        """Counted work: the rest is found anew, here too."""
+        self._forget()
+        return json.dumps(self._statistics).encode()
+
+    def recall(self, t: float, y: np.ndarray, memory: bytes) -> None:
+        """Start anew, with the counts of `memory`."""
+        self._forget()
+        self._statistics = json.loads(memory)
 
     def consistent(self, t: float, y: np.ndarray, inputs: _core.Inputs) -> np.ndarray:
         """y_dot that satisfies F = 0 at (t, y); the derivatives found for it serve the step that follows."""
         guess = np.zeros(y.size) if self._rate is None else self._rate
         renew = self._found(t) == "dF/dy"
         self._found_at["dF/dy_dot"] = t
-        self._rate = self._linearised.consistent(self.model.core, t, y, guess, inputs, renew)
+        self._rate = self._linearised.consistent(self.model.core, (t, y), guess, inputs, renew)
         return self._rate
 
     def _found(self, t: float) -> str | None:
@@ -172,6 +206,21 @@ class FixedIntegrator:
         self.atol = atol_scale * absolute_tolerances(model)
         self._solver: _core.FixedStep | _core.ExplicitStep | None = None
         self._y: np.ndarray | None = None
+
+    @property
+    def begun(self) -> bool:
+        """Whether it has been started."""
+        return self._solver is not None
+
+    def memory(self) -> bytes:
+        """State, rates at the last stages, where dF/dy was found, counted work; nothing before the first step."""
+        return b"" if self._solver is None else self._solver.memory()
+
+    def recall(self, t: float, y: np.ndarray, memory: bytes) -> None:
+        """Go on at (t, y); without a memory as from a start there."""
+        self._begin(t, y)
+        if memory:
+            self._solver.recall(self.model.core, memory)
 
     @property
     def method(self) -> str:

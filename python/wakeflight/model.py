@@ -74,7 +74,7 @@ class CompiledRotor:
     @cached_property
     def area_weights(self) -> np.ndarray:
         """Shares of the disk's area between root cutout and tip that the stations stand for (n_stations,), summing to one."""
-        return disk.area_weights(self.stations, np.asarray(self.rotor["widths"]))
+        return np.asarray(self.rotor["area_weights"])
 
     @property
     def steps_per_revolution(self) -> int:
@@ -123,21 +123,6 @@ class CompiledRotor:
         """Area mean and first harmonics of an inflow map (n_azimuths, n_stations), the first azimuth being zero."""
         psi = 2 * np.pi * np.arange(inflow.shape[0]) / inflow.shape[0]
         return disk.first_harmonics(inflow, psi, self.stations / self.rotor["radius"], self.area_weights)
-
-    def carrying_inflow(self, circulation: np.ndarray, hub_velocity: np.ndarray) -> float:
-        """Inflow of momentum theory for the thrust of a circulation map (n_azimuths, n_stations) [m2/s]: it carries the sheet.
-
-        Thrust by Kutta-Joukowski from the speed along the chord of a blade without flapping, Omega r + V sin psi; hub velocity
-        [m/s] in hub axes.
-        """
-        psi = 2 * np.pi * np.arange(circulation.shape[0]) / circulation.shape[0]
-        across = hub_velocity[1] * np.cos(psi) - hub_velocity[0] * np.sin(psi)
-        widths = np.asarray(self.rotor["widths"])
-        lift = circulation @ (self.omega * self.stations * widths) + across * (circulation @ widths)
-        disk = np.pi * self.rotor["radius"] ** 2 * self.tip_speed**2
-        ct = self.n_blades * float(np.mean(lift)) / disk
-        mu = np.hypot(hub_velocity[0], hub_velocity[1]) / self.tip_speed
-        return _core.momentum_inflow(ct, float(mu * mu), float(-hub_velocity[2] / self.tip_speed), False)
 
 
 def flight_regime(aircraft: Aircraft, condition: FlightCondition) -> str:
@@ -224,6 +209,10 @@ class Model(CompiledRotor):
         speed, flight_path, _ = self.core.trim_path(problem, x)
         along = speed >= 0.0 and abs(flight_path) <= 0.5 * np.pi
         return along and abs(x[PITCH]) < 0.5 * np.pi and not (free and abs(x[YAW]) > 0.5 * np.pi)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Compiled anew where it is needed."""
+        return Model.build, (self.aircraft, self.condition, self.inflow, self.target)
 
     @property
     def rotor_tables(self) -> dict[str, Any]:

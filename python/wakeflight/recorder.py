@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from . import _core
 from .flight_monitors import check_sample, monitors
 from .maneuvers import Maneuver
 from .model import Model
@@ -19,8 +18,7 @@ from .monitors import Monitor, variables
 if TYPE_CHECKING:
     import xarray as xr
 
-    from .flight import ConvergencePhase, InflowSource
-    from .trim import Trim
+    from .simulation import ConvergencePhase, Instant, Simulation
 
 SNAPSHOTS_PER_REVOLUTION = 4
 LARGEST_SHEET = 5_000_000  # numbers; larger lattices of full-span wakes are not kept
@@ -30,8 +28,10 @@ STATION_FIELDS = ("inflow", "circulation", "cl", "cl_m2", "alpha", "mach")
 class Recorder:
     """Arrays of a run, filled step by step."""
 
-    def __init__(self, model: Model, start: Trim, maneuver: Maneuver, source: InflowSource, n_steps: int):
-        self.model, self.start, self.maneuver, self.source = model, start, maneuver, source
+    def __init__(self, sim: Simulation, maneuver: Maneuver, n_steps: int):
+        self.model, self.start, self.maneuver = sim.model, sim.start, maneuver
+        model = sim.model
+        self.exchange, self.phase = sim.exchange, sim.phase
         self.n_recorded = 0
         n, blades, stations = n_steps + 1, model.n_blades, model.stations.size
         self.time = np.empty(n)
@@ -64,19 +64,10 @@ class Recorder:
         self.sheets: list[tuple[np.ndarray, np.ndarray]] = []
         self.keeps_sheets = keeps_sheets(model, n_steps)
 
-    def record(
-        self,
-        step: int,
-        t: float,
-        y: np.ndarray,
-        y_dot: np.ndarray,
-        inputs: _core.Inputs,
-        stick: np.ndarray,
-        mean_inflow: float,
-        stabilator: float,
-    ) -> None:
+    def record(self, at: Instant) -> None:
         """Keep one instant: the state, its consistent rate, and the inputs that begin there."""
-        out = self.model.core.outputs(t, y, y_dot, inputs)
+        step, t, y, stick = at.step, at.t, at.y, at.stick
+        out = self.model.core.outputs(t, y, at.y_dot, at.inputs)
         self.time[step], self.state[step], self.stick[step] = t, y, stick
         self.azimuth[step] = out["azimuth"]
         for name, values in self.blade.items():
@@ -89,31 +80,36 @@ class Recorder:
         angles = self.model.core.equivalent_angles(self.model.modal(y)[0])
         self.blade_angles["flap"][step], self.blade_angles["lead"][step] = angles
         self.scalars["power"][step] = sum(out["power"])
-        self.scalars["stabilator"][step] = stabilator
+        self.scalars["stabilator"][step] = at.stabilator
         dynamic = self.model.inflow.is_dynamic
         first = self.model.layout["inflow"][0]
-        self.scalars["inflow_mean"][step] = y[first] if dynamic else mean_inflow
-        wake = getattr(self.source, "wake", None)
-        monitors = getattr(wake, "monitors", {})
-        self.scalars["odd_even"][step] = monitors.get("odd_even", 0.0)
-        self.scalars["max_displacement"][step] = monitors.get("max_displacement", 0.0) * self.model.rotor["radius"]
-        self.scalars["vortex_blade_distance"][step] = monitors.get("vortex_blade_distance", np.nan)
+        self.scalars["inflow_mean"][step] = y[first] if dynamic else at.mean_inflow
+        monitors = self.exchange.monitors
+        self.scalars["odd_even"][step] = monitors["odd_even"]
+        self.scalars["max_displacement"][step] = monitors["max_displacement"] * self.model.rotor["radius"]
+        self.scalars["vortex_blade_distance"][step] = monitors["vortex_blade_distance"]
         self.scalars["energy"][step], self.scalars["load_power"][step] = out["energy"], out["load_power"]
-        if wake is not None and step % (self.model.steps_per_revolution // SNAPSHOTS_PER_REVOLUTION) == 0:
-            self.snapshots.append(position_of(wake, step))
-            self.snapshot_circulation.append(wake.marker_circulation(step))
-            self.snapshot_core.append(at_nodes(wake.core_radius(step)))
-            if self.keeps_sheets:
-                self.sheets.append(wake.lattice(step))
-            self.snapshot_revolution.append(step / self.model.steps_per_revolution)
+        if step % (self.model.steps_per_revolution // SNAPSHOTS_PER_REVOLUTION) == 0:
+            self._keep_wake(step)
         # a row counts only when it is finite: what cannot be kept ends the flight
         if not np.isfinite(y).all() or not all(map(math.isfinite, out["force"])):
             raise ArithmeticError(f"loads are not finite at t = {t:.4f} s")
         self.n_recorded = step + 1
 
-    def dataset(
-        self, attributes: dict[str, Any], phase: ConvergencePhase, warnings: list[str], failure: str | None
-    ) -> xr.Dataset:
+    def _keep_wake(self, step: int) -> None:
+        """Keep the vortices, where there are any."""
+        tips = self.exchange.tips(step)
+        if tips is None:
+            return
+        position, circulation, core_radius = tips
+        self.snapshots.append(position)
+        self.snapshot_circulation.append(circulation)
+        self.snapshot_core.append(at_nodes(core_radius))
+        if self.keeps_sheets:
+            self.sheets.append(self.exchange.lattice(step))
+        self.snapshot_revolution.append(step / self.model.steps_per_revolution)
+
+    def dataset(self, attributes: dict[str, Any], warnings: list[str], failure: str | None) -> xr.Dataset:
         """The run's Dataset, whole or up to where it stopped."""
         from .results import assemble
 
@@ -144,7 +140,7 @@ class Recorder:
         arrays |= variables(self.monitors)
         arrays |= {name: values[:n] for name, values in self.blade_angles.items()}
         if not model.inflow.is_dynamic:
-            arrays |= self._wake_arrays(phase)
+            arrays |= self._wake_arrays(self.phase)
         counted = self.counters()
         return assemble(
             arrays,
@@ -152,7 +148,7 @@ class Recorder:
                 **self._describe(),
                 **attributes,
                 **counted,
-                **convergence_attributes(phase),
+                **convergence_attributes(self.phase),
                 "warnings": "\n".join(warnings),
                 "failure": failure or "",
             },
@@ -212,23 +208,14 @@ class Recorder:
 
     def counters(self) -> dict[str, int]:
         """What the wake has counted so far."""
-        wake = getattr(self.source, "wake", None)
-        if wake is None:
+        counted = self.exchange.counters
+        if not counted:
             return {}
-        counters = {
-            "segment_evaluations": wake.segment_evaluations,
-            "segment_evaluations_trim": self.start.wake.counters["wake_segment_evaluations"],
-            "relaxation_iterations_trim": self.start.wake.counters["relaxation_iterations"],
+        trim = self.start.wake.counters
+        return counted | {
+            "segment_evaluations_trim": trim["wake_segment_evaluations"],
+            "relaxation_iterations_trim": trim["relaxation_iterations"],
         }
-        if hasattr(wake, "unconverged"):
-            counters["unconverged_revolutions"] = wake.unconverged
-            counters["relaxation_updates"] = wake.updates
-            counters["relaxation_iterations"] = wake.trimmed.counters["relaxation_iterations"]
-        else:
-            # one stops the flight, and is not kept
-            counters["circulation_not_converged"] = wake.core.unsolved
-            counters["circulation_followed"] = wake.circulation_followed
-        return counters
 
     def _describe(self) -> dict[str, Any]:
         start, model = self.start, self.model
@@ -264,11 +251,6 @@ class Recorder:
             "power": mean["power"],
             "revolutions": (self.n_recorded - 1) / model.steps_per_revolution,
         }
-
-
-def position_of(wake: Any, step: int) -> np.ndarray:
-    """Tip vortices of either free wake (n_blades, n_ages, 3) [m]."""
-    return wake.position(step) if hasattr(wake, "updates") else wake.position()
 
 
 def keeps_sheets(model: Model, n_steps: int) -> bool:

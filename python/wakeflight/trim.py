@@ -24,10 +24,13 @@ from .trim_solve import solve_condition
 from .trim_target import target
 from .trim_wake import CONTROL_TOLERANCE, on_marching, on_relaxation
 from .units import STANDARD_GRAVITY
+from .views import html_table
 from .wake_trim import WakeInTrim
 
+KNOT = 0.514444  # m/s
 
-@dataclass(frozen=True)
+
+@dataclass(frozen=True, repr=False)
 class Trim:
     """A trimmed flight; angles in rad, SI, sticks in inches from the stop."""
 
@@ -42,6 +45,35 @@ class Trim:
     counters: dict[str, int] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
     """What is to be said of the way to it: a wake that rests in the mean alone."""
+
+    def __getstate__(self) -> dict[str, Any]:
+        """The equations by value; monitors are found again."""
+        state = {name: value for name, value in self.__dict__.items() if name != "monitors"}
+        return state | {"problem": self.problem.to_bytes()}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """The equations made again."""
+        self.__dict__.update(state | {"problem": _core.TrimProblem.from_bytes(state["problem"])})
+
+    def __repr__(self) -> str:
+        """One line."""
+        c = self.condition
+        own = f"{self.aircraft.name}, {c.speed / KNOT:.1f} kt, flight path {np.degrees(c.flight_path):.2f} deg"
+        return f"<Trim: {own}, {self.inflow.name}>"
+
+    def _repr_html_(self) -> str:
+        """A small table."""
+        deg = np.degrees
+        rows = [
+            ("aircraft", self.aircraft.name),
+            ("speed, flight path", f"{self.condition.speed / KNOT:.1f} kt, {deg(self.condition.flight_path):.2f} deg"),
+            ("inflow", self.inflow.name),
+            ("sticks", ", ".join(f"{name} {value:.2f}" for name, value in self.stick.items()) + " in"),
+            ("roll, pitch", f"{deg(self.roll):.2f}, {deg(self.pitch):.2f} deg"),
+            *((name, f"{deg(value):.2f} deg") for name, value in self.pitch_controls.items()),
+            *(("warning", text) for text in self.warnings),
+        ]
+        return html_table("Trim", rows)
 
     @property
     def aircraft(self) -> Aircraft:

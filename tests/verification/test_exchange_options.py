@@ -5,7 +5,7 @@ import pytest
 
 import wakeflight as wf
 from wakeflight.exchange import MarchingExchange
-from wakeflight.flight import flight_model
+from wakeflight.simulation import flight_model
 from wakeflight.wake_trim import marching_map
 
 

@@ -7,8 +7,9 @@ import pytest
 
 import wakeflight as wf
 from wakeflight import _core
-from wakeflight.flight import Sticks, coupling_inputs
+from wakeflight.flight import Sticks
 from wakeflight.integrators import FixedIntegrator, absolute_tolerances, consistent_rate
+from wakeflight.simulation import coupling_inputs
 
 
 @pytest.fixture(scope="module")

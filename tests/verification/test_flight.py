@@ -6,9 +6,10 @@ import pytest
 import wakeflight as wf
 from wakeflight import _core
 from wakeflight.exchange import MarchingExchange
-from wakeflight.flight import Sticks, coupling_inputs, flight_model
+from wakeflight.flight import Sticks
 from wakeflight.integrators import IdaIntegrator, consistent_rate
 from wakeflight.model import Model
+from wakeflight.simulation import coupling_inputs, flight_model
 
 STILL = wf.Maneuver("hands off", (("lateral", ((0.0, 0.0), (1.0, 0.0))),), seconds=1.0)
 

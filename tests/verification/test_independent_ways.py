@@ -8,8 +8,9 @@ import pytest
 
 import wakeflight as wf
 from wakeflight.exchange import MarchingExchange
-from wakeflight.flight import Sticks, coupling_inputs, flight_model
+from wakeflight.flight import Sticks
 from wakeflight.integrators import IdaIntegrator, absolute_tolerances, consistent_rate
+from wakeflight.simulation import coupling_inputs, flight_model
 from wakeflight.wake_trim import marching_map
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import wakeflight as wf
-from wakeflight.exchange import RelaxationExchange
+from wakeflight.exchange import Exchange
 from wakeflight.monitors import vortices
 from wakeflight.trim import physical
 
@@ -99,12 +99,13 @@ def test_a_descent_in_the_vortex_ring_range_is_told_by_every_model():
 
 def test_an_unphysical_sample_stops_the_flight_by_name(baseline_relaxation, monkeypatch):
     # inflow spoiled from the eleventh exchange on: everything before it is kept, nothing after
-    true = RelaxationExchange.inflow
+    true = Exchange.held
 
     def spoiled(self, step):
-        return true(self, step) * (100.0 if step > 10 else 1.0)
+        inflow, mean = true(self, step)
+        return inflow * (100.0 if step > 10 else 1.0), mean
 
-    monkeypatch.setattr(RelaxationExchange, "inflow", spoiled)
+    monkeypatch.setattr(Exchange, "held", spoiled)
     with pytest.raises(wf.NumericalFailure, match=r"of the tip speed at t = .* s, blade .* psi = .* r/R = ") as caught:
         wf.fly(baseline_relaxation, HOLD, inflow="relaxation", integrator="fixed")
     data = caught.value.partial.data
@@ -113,8 +114,8 @@ def test_an_unphysical_sample_stops_the_flight_by_name(baseline_relaxation, monk
 
 
 def test_a_flight_that_fails_before_its_first_sample_leaves_nothing(baseline_relaxation, monkeypatch):
-    true = RelaxationExchange.inflow
-    monkeypatch.setattr(RelaxationExchange, "inflow", lambda self, step: 100.0 * true(self, step))
+    true = Exchange.held
+    monkeypatch.setattr(Exchange, "held", lambda self, step: (100.0 * true(self, step)[0], true(self, step)[1]))
     with pytest.raises(wf.NumericalFailure, match=r"of the tip speed at t = 0\.000 s") as caught:
         wf.fly(baseline_relaxation, HOLD, inflow="relaxation", integrator="fixed")
     assert caught.value.partial is None
@@ -134,7 +135,7 @@ def test_the_closest_vortex_of_a_wake_is_found_as_the_marching_wake_finds_it(bas
     march.frozen_step(start.problem, start.x)
     found = vortices.closest(
         march.position(),
-        march.core_radius(0),
+        march.tips(march.step_index)[2],
         2 * np.pi * np.array(march.rows(march.step_index)) / march.n,
         model.n_blades,
         model.rotor["hinge_offset"],

@@ -7,7 +7,7 @@ import xarray as xr
 import wakeflight as wf
 from wakeflight import cli
 from wakeflight.condition import condition_for
-from wakeflight.flight import flight_model
+from wakeflight.simulation import flight_model
 from wakeflight.model import Model
 
 TYPED = {"tip_strength": "max", "inboard_wake": "sheet"}

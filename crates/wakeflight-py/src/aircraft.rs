@@ -1,5 +1,6 @@
 //! The aircraft: F, its Jacobian, trim equations, exchange with the wake, outputs.
 
+use crate::checks::sized;
 use crate::rotor::{motion, rotor_constants};
 use crate::trim::{self, Motion, PyTrimLayout, PyTrimProblem};
 use numpy::ndarray::Array;
@@ -8,6 +9,7 @@ use numpy::{PyReadwriteArray1, PyReadwriteArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use wakeflight::airframe::servo::Scheduled;
 use wakeflight::blade::aerodynamics::Air;
 use wakeflight::blade::model::Discretisation;
 use wakeflight::inflow::pitt_peters::MassFlow;
@@ -49,6 +51,29 @@ impl PyInputs {
             }
         };
         Ok(Self(Inputs { stick, stick_rate, t_start, inflow: vec![inflow], stabilator_incidence }))
+    }
+}
+
+impl PyInputs {
+    /// The inputs, which must have an inflow for every rotor of `system`, of its stations.
+    pub(crate) fn fitting(&self, system: &System) -> PyResult<&Inputs> {
+        let (found, needed) = (self.0.inflow.len(), system.rotors.len());
+        if found != needed {
+            return Err(invalid(format!("inflow of {found} rotors, {needed} needed")));
+        }
+        for (held, (_, rotor, l)) in self.0.inflow.iter().zip(system.each_rotor()) {
+            let needed = rotor.n_blades * rotor.inflow_width();
+            match held {
+                HeldInflow::Stations { inflow, .. } if inflow.len() != needed => {
+                    return Err(invalid(format!("inflow has {} numbers, {needed} needed", inflow.len())));
+                }
+                HeldInflow::Dynamic if !l.dynamic_inflow => {
+                    return Err(invalid("inflow: needed, this aircraft has no inflow states"));
+                }
+                _ => {}
+            }
+        }
+        Ok(&self.0)
     }
 }
 
@@ -121,7 +146,10 @@ impl PyAircraft {
         inputs: &PyInputs,
         mut out: PyReadwriteArray1<f64>,
     ) -> PyResult<()> {
-        let at = Instant { t, y: y.as_slice()?, y_dot: y_dot.as_slice()?, inputs: &inputs.0 };
+        let n = self.inner.layout.len();
+        let (y, y_dot) = (sized("y", y.as_slice()?, n)?, sized("y_dot", y_dot.as_slice()?, n)?);
+        sized("out", out.as_slice()?, n)?;
+        let at = Instant { t, y, y_dot, inputs: inputs.fitting(&self.inner)? };
         self.inner.residual_of_four(&at, out.as_slice_mut()?);
         Ok(())
     }
@@ -136,7 +164,11 @@ impl PyAircraft {
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let rate = self
             .inner
-            .consistent_rate(t, y.as_slice()?, &inputs.0)
+            .consistent_rate(
+                t,
+                sized("y", y.as_slice()?, self.inner.layout.len())?,
+                inputs.fitting(&self.inner)?,
+            )
             .map_err(|e| pyo3::exceptions::PyArithmeticError::new_err(e.to_string()))?;
         Ok(rate.into_pyarray(py))
     }
@@ -153,7 +185,10 @@ impl PyAircraft {
         b: f64,
         mut out: PyReadwriteArray2<f64>,
     ) -> PyResult<()> {
-        let at = Instant { t, y: y.as_slice()?, y_dot: y_dot.as_slice()?, inputs: &inputs.0 };
+        let n = self.inner.layout.len();
+        let (y, y_dot) = (sized("y", y.as_slice()?, n)?, sized("y_dot", y_dot.as_slice()?, n)?);
+        sized("out", out.as_slice()?, n * n)?;
+        let at = Instant { t, y, y_dot, inputs: inputs.fitting(&self.inner)? };
         self.inner.jacobian(&at, a, b, out.as_slice_mut()?);
         Ok(())
     }
@@ -221,13 +256,23 @@ impl PyAircraft {
         Ok(trim.inputs(x, HeldInflow::Dynamic).stabilator_incidence)
     }
 
-    /// Incidence [rad] the stabilator's schedule asks for at a true airspeed [m/s], collective stick [m], pitch rate [rad/s],
-    /// and the rate limit of its servo [rad/s]; None without a schedule.
-    fn scheduled_stabilator(&self, speed: f64, collective: f64, pitch_rate: f64) -> Option<(f64, f64)> {
-        let Carrier::Airframe(airframe) = &self.inner.carrier else { return None };
-        let schedule = airframe.stabilator_schedule.as_ref()?;
-        let incidence = airframe.trim_incidence(speed, self.inner.air.density, collective, pitch_rate);
-        Some((incidence, schedule.rate_limit))
+    /// Stabilator incidence [rad] after `delta_t` [s] on the way from `incidence` toward its schedule at state `y` and collective
+    /// stick [m], within the rate of its servo; without a schedule it stays.
+    fn followed_incidence(
+        &self,
+        incidence: f64,
+        y: PyReadonlyArray1<f64>,
+        collective: f64,
+        delta_t: f64,
+    ) -> PyResult<f64> {
+        let y = y.as_slice()?;
+        let &[u, v, w, _, pitch_rate, ..] = y else {
+            return Err(invalid(format!("y has {} numbers, {} needed", y.len(), self.inner.layout.len())));
+        };
+        let Carrier::Airframe(airframe) = &self.inner.carrier else { return Ok(incidence) };
+        let density = self.inner.air.density;
+        let seen = Scheduled { velocity: [u, v, w], pitch_rate, collective, density };
+        Ok(airframe.followed_incidence(incidence, &seen, delta_t))
     }
 
     /// Hub velocity [m/s] and rates [rad/s], non-rotating hub axes.
@@ -336,7 +381,9 @@ impl PyAircraft {
         y_dot: PyReadonlyArray1<f64>,
         inputs: &PyInputs,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let at = Instant { t, y: y.as_slice()?, y_dot: y_dot.as_slice()?, inputs: &inputs.0 };
+        let n = self.inner.layout.len();
+        let (y, y_dot) = (sized("y", y.as_slice()?, n)?, sized("y_dot", y_dot.as_slice()?, n)?);
+        let at = Instant { t, y, y_dot, inputs: inputs.fitting(&self.inner)? };
         let mut all = self.inner.outputs(&at);
         let o = all.rotors.swap_remove(0);
         let n_blades = self.inner.main().n_blades;

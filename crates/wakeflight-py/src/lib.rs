@@ -4,6 +4,9 @@ use pyo3::prelude::*;
 mod aircraft;
 mod atmosphere;
 mod blade;
+mod carrier;
+mod checks;
+mod exchange;
 mod flight;
 mod inflow;
 mod options;
@@ -21,6 +24,7 @@ fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
     aircraft::register(m)?;
     blade::register(m)?;
     flight::register(m)?;
+    exchange::register(m)?;
     stand::register(m)?;
     trim::register(m)?;
     inflow::register(m)?;

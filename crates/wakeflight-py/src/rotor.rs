@@ -18,6 +18,7 @@ pub fn rotor_constants<'py>(py: Python<'py>, r: &Rotor) -> PyResult<Bound<'py, P
     d.set_item("blade_mass", r.blade.mass)?;
     d.set_item("stations", r.blade.stations.iter().map(|s| s.shapes.x).collect::<Vec<_>>())?;
     d.set_item("widths", r.blade.stations.iter().map(|s| s.geometry.width).collect::<Vec<_>>())?;
+    d.set_item("area_weights", r.disk_mean().weights().to_vec())?;
     d.set_item("chords", r.blade.stations.iter().map(|s| s.geometry.chord).collect::<Vec<_>>())?;
     let modes = 0..r.blade.n_modes;
     d.set_item("frequencies", r.blade.modes.frequency[modes.clone()].to_vec())?;

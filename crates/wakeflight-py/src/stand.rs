@@ -29,7 +29,8 @@ pub struct PyStand {
     pub(crate) inner: System,
 }
 
-fn four([a, b, c]: [f64; 3]) -> [f64; 4] {
+/// Controls theta_0, theta_1c, theta_1s as a system has them.
+pub(crate) fn four([a, b, c]: [f64; 3]) -> [f64; 4] {
     [a, b, c, 0.0]
 }
 
@@ -164,50 +165,6 @@ impl PyStand {
             .map(|row| self.inner.main().equivalent_angles(&motion(row.iter().copied(), std::iter::empty())))
             .unzip();
         (flap.into_pyarray(py), lead.into_pyarray(py))
-    }
-
-    /// Circulation and near wake solved together; the arguments and answers of `Aircraft.solve_circulation`, but that the
-    /// inflow of thin sections has two values per station, at a quarter and at three quarters of the chord.
-    #[allow(clippy::too_many_arguments, clippy::type_complexity, reason = "one call per exchange")]
-    fn solve_circulation<'py>(
-        &self,
-        py: Python<'py>,
-        wake_options: &str,
-        y: PyReadonlyArray1<f64>,
-        stick: [f64; 3],
-        stick_rate: PyReadonlyArray1<f64>,
-        psi: PyReadonlyArray1<f64>,
-        q: PyReadonlyArray2<f64>,
-        q_dot: PyReadonlyArray2<f64>,
-        lambda_far: PyReadonlyArray2<f64>,
-        start: PyReadonlyArray2<f64>,
-    ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>, f64, usize)> {
-        let _ = stick_rate;
-        let options = crate::options::wake_options(wake_options)?;
-        let (velocity, rates) = hub_state(y.as_slice()?)?;
-        let hub = hub_motion(&self.inner, velocity, rates);
-        let (q, q_dot) = (q.as_array(), q_dot.as_array());
-        let instants: Vec<BladeInstant> = psi
-            .as_slice()?
-            .iter()
-            .enumerate()
-            .map(|(i, &psi)| BladeInstant {
-                psi,
-                modal: motion(q.row(i).iter().copied(), q_dot.row(i).iter().copied()),
-                control: self.inner.main().blade_pitch(four(stick), [0.0; 4], psi).into(),
-            })
-            .collect();
-        let far: Vec<f64> = lambda_far.as_array().iter().copied().collect();
-        let start: Vec<f64> = start.as_array().iter().copied().collect();
-        let all = py
-            .detach(|| {
-                self.inner.main().circulations(self.inner.air, &options, &hub, &instants, &far, &start)
-            })
-            .map_err(crate::wake::py_error)?;
-        let (n, width) = (self.inner.main().blade.stations.len(), self.inner.main().inflow_width());
-        let shape = |m, v| Array::from_shape_vec((instants.len(), m), v).map_err(invalid);
-        let (gamma, inflow) = (shape(n, all.gamma)?, shape(width, all.inflow)?);
-        Ok((gamma.into_pyarray(py), inflow.into_pyarray(py), all.residual, all.followed))
     }
 
     /// Circulation [m2/s] of one blade's sections and its slope by inflow, for inflow (n_stations,).

@@ -1,9 +1,11 @@
 //! Trim: problem, layout, residual, Jacobian, periodic motion, the same for an aircraft and a rotor on a stand.
 
 use crate::aircraft::invalid;
+use crate::checks::{pack, unpack};
 use numpy::ndarray::Array;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
+use pyo3::types::PyBytes;
 use wakeflight::trim::equation::Equation;
 use wakeflight::trim::host::Host;
 use wakeflight::trim::path::{Path, PathUnknown};
@@ -44,6 +46,17 @@ impl PyTrimProblem {
             n_azimuths,
             inflow,
         }))
+    }
+
+    /// Everything of it, exact.
+    fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        pack(py, &self.0)
+    }
+
+    /// From `to_bytes`.
+    #[staticmethod]
+    fn from_bytes(bytes: &[u8]) -> PyResult<Self> {
+        unpack("trim problem", bytes).map(Self)
     }
 }
 

@@ -55,7 +55,7 @@ pub(crate) fn vectors<'py>(
 }
 
 /// (n, m, l, 3) array from row-major vectors.
-fn lattice<'py>(
+pub(crate) fn lattice<'py>(
     py: Python<'py>,
     values: &[[f64; 3]],
     rows: usize,
@@ -188,16 +188,6 @@ impl RelaxationWake {
         py.detach(|| self.inner.set_state(hub, &blades, &circulation)).map_err(py_error)
     }
 
-    /// Mean induced inflow that carries the inboard sheet.
-    fn set_mean_inflow(&mut self, mean_inflow: f64) -> PyResult<()> {
-        self.inner.set_mean_inflow(mean_inflow).map_err(py_error)
-    }
-
-    /// Relaxation factor of the sweeps.
-    fn set_relaxation(&mut self, relaxation: f64) -> PyResult<()> {
-        self.inner.set_relaxation(relaxation).map_err(py_error)
-    }
-
     /// Does n sweeps; returns their RMS changes (n, 2) over R: all markers, first turn.
     fn sweep<'py>(&mut self, py: Python<'py>, n: usize) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let norms = py.detach(|| self.inner.sweep(n)).map_err(py_error)?;
@@ -323,16 +313,6 @@ impl TimeMarchingWake {
         let StepReport { max_displacement, odd_even, segment_evaluations } =
             py.detach(|| self.inner.step(hub, &blades, &circulation)).map_err(py_error)?;
         Ok((max_displacement, odd_even, segment_evaluations))
-    }
-
-    /// Bound circulation of the present level (n_blades, n_stations) [m2/s], replaced without advancing the wake.
-    fn set_circulation(&mut self, circulation: PyReadonlyArray2<'_, f64>) -> PyResult<()> {
-        self.inner.set_circulation(&flat(&circulation)).map_err(py_error)
-    }
-
-    /// Mean induced inflow that carries the inboard sheet.
-    fn set_mean_inflow(&mut self, mean_inflow: f64) -> PyResult<()> {
-        self.inner.set_mean_inflow(mean_inflow).map_err(py_error)
     }
 
     /// Inflow at the stations without that of the own near wake (n_blades, n_stations).

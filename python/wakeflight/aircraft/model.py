@@ -13,6 +13,7 @@ from pydantic import BaseModel, ValidationError
 
 from ..errors import InputError
 from ..units import STANDARD_GRAVITY, quantity, shown
+from ..views import html_table
 from .checks import check_aircraft
 from .core_data import assembled, fixed_parts
 from .mass import blade_mass
@@ -108,6 +109,21 @@ class Aircraft:
         """Name and loading."""
         loading = f", loading={self._loading_name!r}" if self._loading_name else ""
         return f"Aircraft({self.name!r}{loading}{', mirrored' if self._spec.mirrored else ''})"
+
+    def _repr_html_(self) -> str:
+        """A small table."""
+        rotor = self.rotor
+        rows = [
+            ("loading", self._loading_name or "that of the file"),
+            (
+                "rotor",
+                f"{int(rotor.n_blades)} blades, radius {float(rotor.radius):.3f} m, {float(rotor.omega):.2f} rad/s",
+            ),
+            ("solidity", f"{self.solidity:.4f}"),
+            ("blades", "flexible" if self.flexible else "rigid"),
+            *(("warning", text) for text in self.warnings),
+        ]
+        return html_table(self.name, rows)
 
     @property
     def name(self) -> str:

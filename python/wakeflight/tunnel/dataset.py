@@ -50,7 +50,7 @@ def _wake_arrays(stand: Solved) -> dict[str, np.ndarray]:
     s, radius = stand.solution, stand.radius
     n = len(stand.azimuth)
     if s.march is not None:
-        wake, strength = s.march.position(), s.march.core.marker_circulation().mean(axis=0)
+        wake, strength = s.march.position(), s.march.marker_circulation().mean(axis=0)
     else:
         rows = [b * n // stand.model.n_blades for b in range(stand.model.n_blades)]
         wake = path[rows]

@@ -55,7 +55,7 @@ class MarchedInflow:
 
     def kept(self) -> dict[str, np.ndarray]:
         """Tip vortices and their circulation."""
-        return {"wake": self.march.position(), "tip_circulation": self.march.core.marker_circulation()}
+        return {"wake": self.march.position(), "tip_circulation": self.march.marker_circulation()}
 
 
 class StatesOfInflow:

@@ -293,7 +293,7 @@ def march_revolution(
         inflow.append(lam)
         path.append(march.position())
         watched.append(march.monitors)
-        snapshots.append(march.core.snapshot())
+        snapshots.append(march.wake())
     rows, inflow = np.array(rows), np.array(inflow)
     psi = 2 * np.pi * rows.ravel() / march.n
     passages = model.core.passages(problem, x, psi, inflow.reshape(psi.size, -1))

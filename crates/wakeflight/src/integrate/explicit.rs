@@ -9,6 +9,7 @@ use crate::system::instant::Inputs;
 use crate::system::layout::Layout;
 use crate::system::model::System;
 use crate::system::rates::{NoInertia, RigidRates};
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 const STAGES: usize = 6;
@@ -48,6 +49,21 @@ pub struct ExplicitFailure {
     pub reason: &'static str,
     /// Name of the state that is not finite, or whose two orders differ most.
     pub state: String,
+}
+
+/// Everything that the steps to come depend on, between two steps.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+pub struct ExplicitMemory {
+    t: f64,
+    y: Vec<f64>,
+    counters: Counters,
+}
+
+impl ExplicitMemory {
+    /// Size of the state it belongs to.
+    pub fn size(&self) -> usize {
+        self.y.len()
+    }
 }
 
 /// Integration with steps that the caller sets, and all the room it needs.
@@ -97,6 +113,17 @@ impl ExplicitStep {
     /// Counted work; nothing is linearised or iterated.
     pub fn counters(&self) -> Counters {
         self.counters
+    }
+
+    /// What the steps to come depend on: every step begins with the rate of its state.
+    pub fn memory(&self) -> ExplicitMemory {
+        ExplicitMemory { t: self.t, y: self.y.clone(), counters: self.counters }
+    }
+
+    /// Goes on from `memory`, of the same aircraft.
+    pub fn recall(&mut self, memory: ExplicitMemory) {
+        (self.t, self.y, self.counters) = (memory.t, memory.y, memory.counters);
+        self.prepared = false;
     }
 
     /// Finds the rate that satisfies F = 0 with `inputs` from now on.

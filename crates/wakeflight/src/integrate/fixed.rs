@@ -13,6 +13,7 @@ use crate::system::layout::Layout;
 use crate::system::model::System;
 use crate::system::slopes::Slopes;
 use nalgebra::Complex;
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 /// Most Newton iterations of one step.
@@ -40,7 +41,7 @@ pub struct StepFailure {
 }
 
 /// Counted work.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
 pub struct Counters {
     /// Evaluations of F.
     pub residual_evaluations: u64,
@@ -54,6 +55,34 @@ pub struct Counters {
     pub steps: u64,
     /// Steps halved.
     pub halvings: u64,
+}
+
+/// Where dF/dy was found: enough to find it again.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+struct Origin {
+    t: f64,
+    y: Vec<f64>,
+    y_dot: Vec<f64>,
+    inputs: Inputs,
+}
+
+/// Everything that the steps to come depend on, between two steps.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+pub struct FixedMemory {
+    t: f64,
+    y: Vec<f64>,
+    y_dot: Vec<f64>,
+    origin: Option<Origin>,
+    rates: [Vec<f64>; STAGES],
+    last_step: Option<f64>,
+    counters: Counters,
+}
+
+impl FixedMemory {
+    /// Size of the state it belongs to.
+    pub fn size(&self) -> usize {
+        self.y.len()
+    }
 }
 
 /// Integration with steps that the caller sets, and all the room it needs.
@@ -74,6 +103,7 @@ pub struct FixedStep {
     prepared: bool,
     /// When dF/dy was found [s].
     linearised_at: Option<f64>,
+    origin: Option<Origin>,
     linear: Linearised,
     real: Factor<f64>,
     complex: Factor<Complex<f64>>,
@@ -108,6 +138,7 @@ impl FixedStep {
             y_dot: vec![0.0; n],
             prepared: false,
             linearised_at: None,
+            origin: None,
             real: Factor::new(&linear.slopes),
             complex: Factor::new(&linear.slopes),
             linear,
@@ -145,6 +176,30 @@ impl FixedStep {
         self.counters
     }
 
+    /// What the steps to come depend on. dF/dy_dot and the factors belong to a step and are found anew by the next.
+    pub fn memory(&self) -> FixedMemory {
+        FixedMemory {
+            t: self.t,
+            y: self.y.clone(),
+            y_dot: self.y_dot.clone(),
+            origin: self.origin.clone(),
+            rates: self.rates.clone(),
+            last_step: self.last_step,
+            counters: self.counters,
+        }
+    }
+
+    /// Goes on from `memory`, of the same system: dF/dy is found again where it was found, to the same bits.
+    pub fn recall(&mut self, system: &System, memory: FixedMemory) {
+        self.linearised_at = memory.origin.as_ref().map(|o| o.t);
+        if let Some(o) = &memory.origin {
+            self.linear.renew(system, &Instant { t: o.t, y: &o.y, y_dot: &o.y_dot, inputs: &o.inputs });
+        }
+        (self.t, self.y, self.y_dot) = (memory.t, memory.y, memory.y_dot);
+        (self.origin, self.rates, self.last_step) = (memory.origin, memory.rates, memory.last_step);
+        (self.prepared, self.factored, self.counters) = (false, None, memory.counters);
+    }
+
     /// Finds the rate that satisfies F = 0 with `inputs` from now on, and linearises where dF/dy is too old.
     pub fn prepare(&mut self, system: &System, inputs: &Inputs) -> Result<(), StepFailure> {
         // a hair more, so that two steps of ten degrees count as twenty
@@ -158,6 +213,7 @@ impl FixedStep {
         let (t, y, y_dot) = (self.t, &self.y, &mut self.y_dot);
         let solved = if renew {
             self.linearised_at = Some(t);
+            self.origin = Some(Origin { t, y: y.clone(), y_dot: y_dot.clone(), inputs: inputs.clone() });
             self.counters.jacobians += 1;
             self.linear.consistent(system, (t, y), y_dot, inputs)
         } else {

@@ -5,6 +5,7 @@
 use crate::blade::loads::BladeInflow;
 use crate::numerics::scalar::{Dual, Real};
 use crate::rotor::hub::Rotor;
+use serde::{Deserialize, Serialize};
 
 /// A number of what acts, in equations over the scalar `S`.
 pub trait Acting<S>: Real {
@@ -36,7 +37,7 @@ impl<const N: usize> Acting<Dual<N>> for Dual<N> {
 }
 
 /// Inflow of a rotor held over a coupling step.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 pub enum HeldInflow<U = f64> {
     /// The three states of y.
     Dynamic,
@@ -52,7 +53,7 @@ pub enum HeldInflow<U = f64> {
 }
 
 /// What acts on the system over one coupling step.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct Inputs<U = f64> {
     /// Controls at `t_start`: sticks lateral, longitudinal, collective, pedal [m from the stop] of an airframe; on a stand
     /// theta_0, theta_1c, theta_1s [rad] and nothing.

@@ -3,13 +3,14 @@
 use super::host::Head;
 use crate::numerics::frames::{Body, Vec3};
 use crate::numerics::scalar::Real;
+use serde::{Deserialize, Serialize};
 
 /// Bank and sideslip as given, in shares of one equation.
 ///
 /// Sideslip is the angle of the wind in the plane of the nose: atan2(v, u) where the flight is fast and flat, minus the heading
 /// against the track where it is slow or steep (u and v then tell of climb and attitude, not of a direction), blended between
 /// by the share of the horizontal speed.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
 pub struct Convention {
     /// Bank angle [rad].
     pub bank: f64,

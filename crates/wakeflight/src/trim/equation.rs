@@ -2,9 +2,10 @@
 
 use super::convention::Convention;
 use super::error::ProblemError;
+use serde::{Deserialize, Serialize};
 
 /// An equation for a control, an angle of attitude or a free part of the path; loads are means over a revolution.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
 pub enum Equation {
     /// Balance of forces along a body axis, over the mass [m/s2].
     Force(usize),

@@ -2,9 +2,10 @@
 
 use super::error::ProblemError;
 use crate::numerics::scalar::Real;
+use serde::{Deserialize, Serialize};
 
 /// Steady motion of an airframe through the air.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
 pub struct Path<S> {
     /// True airspeed along the flight path [m/s].
     pub speed: S,
@@ -26,7 +27,7 @@ impl Path<f64> {
 }
 
 /// Part of the path that is left free.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
 pub enum PathUnknown {
     /// Airspeed.
     Speed,

@@ -2,9 +2,10 @@
 
 use super::equation::Equation;
 use super::path::{Path, PathUnknown};
+use serde::{Deserialize, Serialize};
 
 /// Inflow in trim.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 pub enum Inflow {
     /// Dynamic inflow, constant over the revolution: three unknowns.
     Dynamic,
@@ -18,7 +19,7 @@ pub enum Inflow {
 }
 
 /// A steady condition to trim for.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct Problem {
     /// Motion of an airframe; of what is left free, a number without meaning. Not read on a stand.
     pub path: Path<f64>,

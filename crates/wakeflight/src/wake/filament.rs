@@ -1,9 +1,10 @@
 //! Free filaments: markers, registers of circulation, cores.
 
 use super::options::WakeOptions;
+use serde::{Deserialize, Serialize};
 
 /// Filaments of equal length at one instant; markers from the blade to the old end.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
 pub struct Filaments {
     /// Number of filaments.
     pub n_filaments: usize,

@@ -3,10 +3,11 @@
 use super::choices::Trailers;
 use super::motion::BladeState;
 use super::options::WakeOptions;
+use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
 /// Radial grid of the bound vortex.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 pub struct BladeGrid {
     /// Edges of the bound elements [m], N + 1 values from the root cutout to the radius.
     pub edges: Vec<f64>,

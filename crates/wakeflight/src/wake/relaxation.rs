@@ -13,6 +13,7 @@ use super::velocity_field::{
     FieldWork, InducedVelocity, Induction, RotorInstant, VortexSegments, Wanted, field_at, point_velocity,
     sum,
 };
+use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
 /// RMS change of the markers in one sweep, over R.
@@ -28,8 +29,9 @@ pub struct Norms {
 ///
 /// dr/dpsi + dr/dzeta = V/omega, five-point central differences in both; blade b at azimuth index l uses row
 /// l + b n_azimuths/n_blades. Rows are the azimuths psi_l = l delta_psi, l = 0 ... steps_per_revolution - 1.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct RelaxationWake<F: InducedVelocity = Induction> {
+    #[serde(with = "super::options::whole")]
     pub(crate) options: WakeOptions,
     /// Share of a new geometry taken in a sweep.
     relaxation: f64,
@@ -52,6 +54,7 @@ pub struct RelaxationWake<F: InducedVelocity = Induction> {
     core_squared: Vec<f64>,
     sweeps: u64,
     evaluations: u64,
+    #[serde(skip)]
     work: FieldWork,
 }
 

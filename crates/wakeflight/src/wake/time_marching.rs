@@ -35,8 +35,9 @@ pub struct StepReport {
 ///
 /// dr/dpsi + dr/dzeta = V/omega; one predictor and one corrector per step. Three levels of geometry are kept, and with
 /// every marker its circulation and the place of its release.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, serde::Deserialize, serde::Serialize)]
 pub struct TimeMarchingWake<F: InducedVelocity = Induction> {
+    #[serde(with = "super::options::whole")]
     options: WakeOptions,
     own: MarchingOptions,
     grid: BladeGrid,
@@ -54,6 +55,7 @@ pub struct TimeMarchingWake<F: InducedVelocity = Induction> {
     /// Velocity of the markers at the present level [m/s], where it is known.
     velocity: Vec<[f64; 3]>,
     velocity_is_known: bool,
+    #[serde(skip)]
     work: Work,
 }
 

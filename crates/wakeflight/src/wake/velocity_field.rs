@@ -14,6 +14,7 @@ use crate::vortex::cylinder::VortexCylinder;
 use crate::vortex::induced_velocity::Segments;
 use crate::vortex::sources::{Group, Part, add_groups_velocity};
 use crate::vortex::tree::{Method, add_part_velocity_by};
+use serde::{Deserialize, Serialize};
 
 /// Where induced velocity comes from.
 pub trait InducedVelocity: Clone + Send + Sync {
@@ -36,7 +37,7 @@ pub trait InducedVelocity: Clone + Send + Sync {
 }
 
 /// Induction of the straight vortex segments, core of Vatistas n = 2.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
 pub struct VortexSegments {
     /// Distance in the core factor.
     pub core_distance: CoreDistance,
@@ -121,7 +122,7 @@ impl<F: Fn([f64; 3]) -> [f64; 3] + Clone + Send + Sync> InducedVelocity for Pres
 }
 
 /// Velocity that grows linearly with the place, `at_origin` + `gradient` x [m/s, 1/s; `_h`].
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
 pub struct LinearField {
     at_origin: [f64; 3],
     gradient: [[f64; 3]; 3],
@@ -144,7 +145,7 @@ impl LinearField {
 }
 
 /// Where a wake takes the induced velocity from.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
 pub enum Induction {
     /// Its vortices.
     Vortices(VortexSegments),
@@ -182,7 +183,7 @@ impl InducedVelocity for Induction {
 }
 
 /// The rotor and its wake at one instant.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
 pub struct RotorInstant {
     /// Free filaments, blade after blade, each from root to tip: the tip vortices, or all trailers.
     pub free: Filaments,

@@ -171,6 +171,11 @@ impl Slopes {
         }
     }
 
+    /// Layout of the state.
+    pub fn layout(&self) -> &Layout {
+        &self.layout
+    }
+
     fn set_point(&mut self, y: &[f64], y_dot: &[f64]) {
         for (s, &v) in self.y.iter_mut().zip(y) {
             *s = D::cst(v);

@@ -20,10 +20,11 @@ use super::induced_velocity::{Filaments, Segments};
 use super::models::for_core;
 use super::sources::{Group, Part, add_groups_velocity};
 use cells::Cells;
+use serde::{Deserialize, Serialize};
 use sum::{Acceptance, Found, TreeSum};
 
 /// How a sum over segments is taken.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
 pub enum Method {
     /// Every segment at every point, exact to rounding.
     Direct,

@@ -1,0 +1,303 @@
+//! The exchange between flight dynamics and the time-marching wake at the end of a coupling step.
+//!
+//! Circulation from the motion and the far inflow, the wake one step further, the far inflow anew, the circulation again:
+//! one call, with the near wakes of the blades found once.
+
+use super::{Held, Lattice, Place, SteadyWake, Tips, over_step, row, steps_of};
+use crate::inflow::disk::{DiskMean, LiftingDisk};
+use crate::rotor::circulation::{BladeInstant, NearWake};
+use crate::rotor::hub::Rotor;
+use crate::vortex::threads::share;
+use crate::wake::miss_distance::miss_distance_in_cores;
+use crate::wake::{
+    BladeState, CirculationSolution, HubMotion as WakeHub, InboardWake, Route, TimeMarchingWake, WakeError,
+    tip_rows,
+};
+use serde::{Deserialize, Serialize};
+
+/// What an exchange saw.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ExchangeReport {
+    /// Largest motion of a marker in the step, over R.
+    pub max_displacement: f64,
+    /// Odd-even content in time of the markers, over R.
+    pub odd_even: f64,
+    /// Smallest distance between blade and tip vortex, in core radii.
+    pub miss_distance: f64,
+    /// Circulations that Newton did not find from the last ones: see [`Route`].
+    pub followed: usize,
+}
+
+impl Place<'_> {
+    fn solved(
+        &self,
+        b: usize,
+        blade: &BladeInstant,
+        far: &[f64],
+        near: &NearWake,
+        start: &[f64],
+    ) -> Result<CirculationSolution, WakeError> {
+        let solution = self.rotor.blade_circulation(self.air, self.hub, blade, far, near, start)?;
+        self.rotor.solved(solution, b, blade.psi)
+    }
+}
+
+/// Time-marching wake and the circulation and inflow that belong to it.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct MarchingExchange {
+    /// The wake.
+    pub wake: TimeMarchingWake,
+    /// Far inflow at the stations (n_blades, n_stations).
+    pub lambda_far: Vec<f64>,
+    before: Option<Vec<f64>>,
+    far_held: Vec<f64>,
+    /// Bound circulation (n_blades, n_stations) [m2/s].
+    pub circulation: Vec<f64>,
+    /// Total inflow held over the next step (n_blades, n_stations), with thin sections at both lines of the chord.
+    pub inflow: Vec<f64>,
+    /// Circulations that were not solved; the exchange that met one failed.
+    pub unsolved: usize,
+    /// Circulations so far that Newton did not find from the ones before.
+    pub followed: usize,
+    /// What the last exchange saw.
+    pub report: Option<ExchangeReport>,
+    /// Steps of azimuth since the start.
+    step: usize,
+    disk: LiftingDisk,
+    area: DiskMean,
+    /// Inflow and circulation at the latest passage of every azimuth (n_azimuths, ...).
+    passages: Vec<f64>,
+    passed_circulation: Vec<f64>,
+    /// The map that is held, where one is, and the steps that it is held for.
+    held_map: Vec<f64>,
+    hold: Option<usize>,
+    #[serde(skip)]
+    blades: Vec<BladeInstant>,
+    #[serde(skip)]
+    states: Vec<BladeState>,
+    #[serde(skip)]
+    near_wakes: Vec<NearWake>,
+}
+
+impl MarchingExchange {
+    /// `wake`, started from the periodic one of `start` with blade 1 at azimuth zero.
+    pub fn new(wake: TimeMarchingWake, start: &SteadyWake, rotor: &Rotor) -> Self {
+        let (n, n_stations, width) = (start.n_azimuths(), wake.options().n_stations, start.width());
+        let rows = |map: &[f64], width: usize| -> Vec<f64> {
+            let at = |b: usize| row(0, b, rotor.n_blades, n) * width;
+            (0..rotor.n_blades).flat_map(|b| map[at(b)..at(b) + width].iter().copied()).collect()
+        };
+        let lambda_far = rows(&start.lambda_far, n_stations);
+        Self {
+            hold: wake.own().update_interval.map(|interval| steps_of(interval, n)),
+            wake,
+            far_held: lambda_far.clone(),
+            lambda_far,
+            before: None,
+            circulation: rows(&start.circulation, n_stations),
+            inflow: rows(&start.inflow, width),
+            unsolved: 0,
+            followed: 0,
+            report: None,
+            step: 0,
+            disk: rotor.lifting_disk(),
+            area: rotor.disk_mean(),
+            passages: start.inflow.clone(),
+            passed_circulation: start.circulation.clone(),
+            held_map: start.inflow.clone(),
+            blades: Vec::new(),
+            states: Vec::new(),
+            near_wakes: Vec::new(),
+        }
+    }
+
+    /// Steps of azimuth since the start.
+    pub fn steps(&self) -> usize {
+        self.step
+    }
+
+    /// Counts steps anew from here, blade 1 at azimuth zero: a phase before the flight has ended.
+    pub fn restart(&mut self) {
+        self.step = 0;
+        self.held_map.clone_from(&self.passages);
+    }
+
+    /// Inflow over the step that begins, and the mean over the disk.
+    ///
+    /// The mean is that of the latest passage of every azimuth: over the blades' present azimuths alone it would swing by n
+    /// per revolution.
+    pub(super) fn held(&self, step: usize) -> Held {
+        let width = self.inflow.len() / self.disk.n_blades;
+        let (inflow, map) = match self.hold {
+            None => (self.inflow.clone(), &self.passages),
+            Some(_) => (over_step(&self.held_map, width, step, self.disk.n_blades), &self.held_map),
+        };
+        Held { inflow: Some(inflow), mean: self.area.of(map, width) }
+    }
+
+    /// The blades have reached the next step: circulation, wake, far inflow, circulation.
+    pub fn advance(&mut self, at: &Place, blades: &[BladeInstant]) -> Result<(), WakeError> {
+        self.step += 1;
+        let hub = at.wake_hub();
+        if self.wake.options().inboard_wake == InboardWake::Sheet {
+            self.wake.set_mean_inflow(self.disk.carrying_inflow(&self.passed_circulation, hub.velocity))?;
+        }
+        self.place(at.rotor, blades, &hub)?;
+        let mut followed = self.solve(at, true)?;
+        let step = self.wake.step(hub, &self.states, &self.circulation)?;
+        self.renew_far(self.wake.own().recorrect == 0);
+        followed += self.solve(at, false)?;
+        for pass in 0..self.wake.own().recorrect {
+            self.wake.set_circulation(&self.circulation)?;
+            self.find_far(pass + 1 == self.wake.own().recorrect);
+            followed += self.solve(at, false)?;
+        }
+        if self.wake.own().extrapolate {
+            self.hold_extrapolated(at)?;
+        }
+        self.report = Some(ExchangeReport {
+            max_displacement: step.max_displacement,
+            odd_even: step.odd_even,
+            miss_distance: miss_distance_in_cores(self.wake.options(), self.wake.instant()),
+            followed,
+        });
+        self.followed += followed;
+        self.keep_passages();
+        Ok(())
+    }
+
+    /// A revolution with the hub, sticks and the motion of a blade at every azimuth (n_azimuths,) held: inflow and circulation by
+    /// azimuth, means of all blades' passages.
+    pub fn turn(&mut self, at: &Place, periodic: &[BladeInstant]) -> Result<(Vec<f64>, Vec<f64>), WakeError> {
+        let (n, n_blades) = (periodic.len(), self.disk.n_blades);
+        let mut inflow = vec![0.0; self.passages.len()];
+        let mut circulation = vec![0.0; self.passed_circulation.len()];
+        let mut blades = Vec::with_capacity(n_blades);
+        for _ in 0..n {
+            let rows: Vec<usize> = (0..n_blades).map(|b| row(self.step + 1, b, n_blades, n)).collect();
+            blades.clear();
+            blades.extend(rows.iter().map(|&k| periodic[k]));
+            self.advance(at, &blades)?;
+            add_rows(&mut inflow, &rows, &self.inflow);
+            add_rows(&mut circulation, &rows, &self.circulation);
+        }
+        for map in [&mut inflow, &mut circulation] {
+            map.iter_mut().for_each(|v| *v /= n_blades as f64);
+        }
+        Ok((inflow, circulation))
+    }
+
+    /// Inflow and circulation of the blades enter the maps at their azimuths.
+    fn keep_passages(&mut self) {
+        let (n_blades, n_stations) = (self.disk.n_blades, self.disk.stations.len());
+        let (width, n) = (self.inflow.len() / n_blades, self.passed_circulation.len() / n_stations);
+        for b in 0..n_blades {
+            let k = row(self.step, b, n_blades, n);
+            self.passages[k * width..(k + 1) * width]
+                .copy_from_slice(&self.inflow[b * width..(b + 1) * width]);
+            self.passed_circulation[k * n_stations..(k + 1) * n_stations]
+                .copy_from_slice(&self.circulation[b * n_stations..(b + 1) * n_stations]);
+        }
+        if self.hold.is_some_and(|every| self.step.is_multiple_of(every)) {
+            self.held_map.clone_from(&self.passages);
+        }
+    }
+
+    pub(super) fn tips(&self) -> Tips {
+        let (wake, options) = (&self.wake, self.wake.options());
+        let (n_trailers, segments) = (options.trailers_per_blade(), options.n_segments());
+        Tips {
+            position: wake.tip_position(),
+            circulation: tip_rows(wake.marker_circulation(), n_trailers, segments + 1),
+            core_radius: tip_rows(&wake.core_radius(), n_trailers, segments),
+        }
+    }
+
+    pub(super) fn lattice(&self) -> Lattice {
+        Lattice {
+            n_trailers: self.wake.options().trailers_per_blade(),
+            position: self.wake.position().to_vec(),
+            circulation: self.wake.marker_circulation().to_vec(),
+        }
+    }
+
+    /// Blades at their azimuths, and their near wakes.
+    fn place(&mut self, rotor: &Rotor, blades: &[BladeInstant], hub: &WakeHub) -> Result<(), WakeError> {
+        self.blades.clear();
+        self.blades.extend_from_slice(blades);
+        self.states.clear();
+        self.near_wakes.clear();
+        for blade in blades {
+            let (flap, lead) = rotor.equivalent_angles(&blade.modal);
+            let state = BladeState { psi: blade.psi, flap, lead };
+            self.near_wakes.push(rotor.near_wake(self.wake.options(), hub, &state)?);
+            self.states.push(state);
+        }
+        Ok(())
+    }
+
+    fn renew_far(&mut self, last: bool) {
+        let before = self.before.get_or_insert_default();
+        std::mem::swap(before, &mut self.lambda_far);
+        self.find_far(last);
+    }
+
+    /// Far inflow of the wake as it is; with the `last` before the next step goes the velocity of its markers.
+    fn find_far(&mut self, last: bool) {
+        if last {
+            self.wake.inflow_far_before_step(&mut self.lambda_far);
+        } else {
+            self.lambda_far = self.wake.inflow_far();
+        }
+    }
+
+    /// Far inflow `steps` ahead, linear in azimuth from its last two values.
+    fn far_ahead(&mut self, steps: f64) {
+        self.far_held.copy_from_slice(&self.lambda_far);
+        if let (true, Some(before)) = (self.wake.own().extrapolate, &self.before) {
+            for (held, old) in self.far_held.iter_mut().zip(before) {
+                *held += steps * (*held - old);
+            }
+        }
+    }
+
+    /// Circulation and total inflow of every blade; `ahead`: with the far inflow carried on to the present azimuth.
+    fn solve(&mut self, at: &Place, ahead: bool) -> Result<usize, WakeError> {
+        self.far_ahead(if ahead { 1.0 } else { 0.0 });
+        let n = self.wake.options().n_stations;
+        let mut outcomes: Vec<Result<bool, WakeError>> = vec![Ok(true); self.blades.len()];
+        let given = self.blades.iter().zip(&self.near_wakes).zip(self.far_held.chunks(n)).enumerate();
+        let width = at.rotor.inflow_width();
+        let kept = self.circulation.chunks_mut(n).zip(self.inflow.chunks_mut(width)).zip(&mut outcomes);
+        share(given.zip(kept), |((b, ((blade, near), far)), ((circulation, inflow), outcome))| {
+            *outcome = at.solved(b, blade, far, near, circulation).map(|solution| {
+                circulation.copy_from_slice(&solution.gamma);
+                inflow.copy_from_slice(&solution.inflow);
+                solution.found_by == Some(Route::Newton)
+            });
+        });
+        self.unsolved += outcomes.iter().filter(|o| matches!(o, Err(WakeError::Circulation { .. }))).count();
+        outcomes.into_iter().try_fold(0, |followed, outcome| Ok(followed + usize::from(!outcome?)))
+    }
+
+    /// Total inflow half a step ahead; circulation of the wake stays that of the present.
+    fn hold_extrapolated(&mut self, at: &Place) -> Result<(), WakeError> {
+        self.far_ahead(0.5);
+        let (n, width) = (self.wake.options().n_stations, at.rotor.inflow_width());
+        for (b, (blade, near)) in self.blades.iter().zip(&self.near_wakes).enumerate() {
+            let span = b * n..(b + 1) * n;
+            let solution =
+                at.solved(b, blade, &self.far_held[span.clone()], near, &self.circulation[span])?;
+            self.inflow[b * width..(b + 1) * width].copy_from_slice(&solution.inflow);
+        }
+        Ok(())
+    }
+}
+
+/// Adds the values of the blades to their rows of a map.
+fn add_rows(map: &mut [f64], rows: &[usize], values: &[f64]) {
+    let width = values.len() / rows.len();
+    for (&k, blade) in rows.iter().zip(values.chunks_exact(width)) {
+        map[k * width..(k + 1) * width].iter_mut().zip(blade).for_each(|(sum, v)| *sum += v);
+    }
+}

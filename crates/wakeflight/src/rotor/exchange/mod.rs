@@ -1,0 +1,200 @@
+//! The exchange between flight dynamics and the air at the end of a coupling step: motion in, inflow out.
+//!
+//! Three models behind one door, [`Exchange`]: dynamic inflow, which is in the state and has nothing to exchange; a relaxation
+//! wake, steady for the motion of the last revolution and renewed when it is due; a marching wake, one step further each time.
+//! What is held between exchanges (maps by azimuth, far inflow, convection of the sheet) is state of the exchange.
+
+pub mod marching;
+pub mod relaxation;
+pub mod steady;
+
+pub use marching::{ExchangeReport, MarchingExchange};
+pub use relaxation::RelaxationExchange;
+pub use steady::{Changes, Iteration, SteadyWake};
+
+use super::circulation::BladeInstant;
+use super::hub::Rotor;
+use crate::blade::aerodynamics::Air;
+use crate::blade::kinematics::PitchMotion;
+use crate::blade::loads::HubMotion;
+use crate::inflow::disk::{DiskMean, LiftingDisk};
+use crate::wake::{HubMotion as WakeHub, WakeError};
+use serde::{Deserialize, Serialize};
+use std::f64::consts::TAU;
+
+/// Rotor, air and motion of the hub at the exchange.
+#[derive(Clone, Copy)]
+pub struct Place<'a> {
+    /// The rotor.
+    pub rotor: &'a Rotor,
+    /// Air.
+    pub air: Air,
+    /// Motion of the hub.
+    pub hub: &'a HubMotion<f64>,
+}
+
+impl Place<'_> {
+    /// Motion of the hub as the wake takes it.
+    pub(crate) fn wake_hub(&self) -> WakeHub {
+        WakeHub { velocity: self.hub.velocity.array(), rates: self.hub.omega.array() }
+    }
+}
+
+/// What the flight dynamics give when a step has been flown.
+#[derive(Clone, Copy)]
+pub struct Reached<'a> {
+    /// Rotor, air, hub.
+    pub place: Place<'a>,
+    /// The blades at their present azimuths (n_blades,).
+    pub blades: &'a [BladeInstant],
+    /// Pitch of a blade at every azimuth (n_azimuths,) with the sticks where they are; needed where a wake is renewed.
+    pub steady_pitch: &'a [PitchMotion<f64>],
+}
+
+/// Inflow over the step that begins.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Held {
+    /// Total inflow over the tip speed (n_blades, n_stations), thin sections twice as wide; none where it is in the state.
+    pub inflow: Option<Vec<f64>>,
+    /// Its mean over the disk, zero where the inflow is in the state.
+    pub mean: f64,
+}
+
+/// Tip vortices at an instant.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tips {
+    /// Nodes (n_blades, n_ages) [m], hub axes.
+    pub position: Vec<[f64; 3]>,
+    /// Circulation of the nodes (n_blades, n_ages) [m2/s].
+    pub circulation: Vec<f64>,
+    /// Core radii of the segments (n_blades, n_ages - 1) [m].
+    pub core_radius: Vec<f64>,
+}
+
+/// Every free trailer at an instant, root to tip.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Lattice {
+    /// Trailers of a blade.
+    pub n_trailers: usize,
+    /// Nodes (n_blades, n_trailers, n_ages) [m], hub axes.
+    pub position: Vec<[f64; 3]>,
+    /// Their circulation (n_blades, n_trailers, n_ages) [m2/s].
+    pub circulation: Vec<f64>,
+}
+
+/// One of the inflow models of a flight, with all that it keeps between exchanges.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub enum Exchange {
+    /// Dynamic inflow: in the state, nothing to exchange.
+    Dynamic,
+    /// Relaxation wake: inflow by azimuth, renewed as often as asked.
+    Relaxation(Box<RelaxationExchange>),
+    /// Time-marching wake: one step with every exchange.
+    Marching(Box<MarchingExchange>),
+}
+
+impl Exchange {
+    /// Inflow over the step that begins after `step` steps of azimuth.
+    pub fn held(&self, step: usize) -> Held {
+        match self {
+            Self::Dynamic => Held { inflow: None, mean: 0.0 },
+            Self::Relaxation(wake) => wake.held(step),
+            Self::Marching(wake) => wake.held(step),
+        }
+    }
+
+    /// Whether the exchange at `step` renews a steady wake, and needs the pitch at every azimuth.
+    pub fn renews(&self, step: usize) -> bool {
+        matches!(self, Self::Relaxation(wake) if wake.renews(step))
+    }
+
+    /// The flight has reached `step`: the air answers.
+    pub fn advance(&mut self, step: usize, reached: &Reached) -> Result<(), WakeError> {
+        match self {
+            Self::Dynamic => Ok(()),
+            Self::Relaxation(wake) => wake.advance(step, reached),
+            Self::Marching(wake) => wake.advance(&reached.place, reached.blades),
+        }
+    }
+
+    /// What the last exchange saw; none where the model does not tell.
+    pub fn report(&self) -> Option<ExchangeReport> {
+        match self {
+            Self::Marching(wake) => wake.report,
+            Self::Dynamic | Self::Relaxation(_) => None,
+        }
+    }
+
+    /// Evaluations of the segment law so far.
+    pub fn segment_evaluations(&self) -> u64 {
+        match self {
+            Self::Dynamic => 0,
+            Self::Relaxation(wake) => wake.steady.segment_evaluations(),
+            Self::Marching(wake) => wake.wake.segment_evaluations(),
+        }
+    }
+
+    /// Tip vortices with the blades where they are after `step` steps; none without a wake.
+    pub fn tips(&self, step: usize) -> Option<Tips> {
+        match self {
+            Self::Dynamic => None,
+            Self::Relaxation(wake) => wake.tips(step),
+            Self::Marching(wake) => Some(wake.tips()),
+        }
+    }
+
+    /// Every free trailer with the blades where they are after `step` steps; none without a wake.
+    pub fn lattice(&self, step: usize) -> Option<Lattice> {
+        match self {
+            Self::Dynamic => None,
+            Self::Relaxation(wake) => wake.lattice(step),
+            Self::Marching(wake) => Some(wake.lattice()),
+        }
+    }
+}
+
+/// Azimuth index of blade `b` of `n_blades` after `step` steps of `n` in a revolution.
+pub fn row(step: usize, b: usize, n_blades: usize, n: usize) -> usize {
+    (step + b * n / n_blades) % n
+}
+
+/// Azimuth [rad] of row `k` of `n`.
+pub fn azimuth(k: usize, n: usize) -> f64 {
+    TAU * k as f64 / n as f64
+}
+
+/// Steps of azimuth in an interval [rad] of which a revolution has `n`.
+fn steps_of(interval: f64, n: usize) -> usize {
+    (interval / TAU * n as f64).round() as usize
+}
+
+/// Mean of a map (n_azimuths, width) over the step that begins: of its rows at the two ends, so that it does not lag.
+fn over_step(map: &[f64], width: usize, step: usize, n_blades: usize) -> Vec<f64> {
+    let n = map.len() / width;
+    let at = |step: usize, b: usize| {
+        let k = row(step, b, n_blades, n);
+        &map[k * width..(k + 1) * width]
+    };
+    (0..n_blades)
+        .flat_map(|b| at(step, b).iter().zip(at(step + 1, b)).map(|(now, ahead)| 0.5 * (now + ahead)))
+        .collect()
+}
+
+impl Rotor {
+    /// Means over the disk of this rotor.
+    pub fn disk_mean(&self) -> DiskMean {
+        let disk = self.lifting_disk();
+        DiskMean::new(&disk.stations, &disk.widths)
+    }
+
+    /// The rotor as a circulation map needs it.
+    pub fn lifting_disk(&self) -> LiftingDisk {
+        LiftingDisk {
+            n_blades: self.n_blades,
+            omega: self.omega,
+            radius: self.blade.radius,
+            stations: self.blade.stations.iter().map(|s| s.shapes.x).collect(),
+            widths: self.blade.stations.iter().map(|s| s.geometry.width).collect(),
+        }
+    }
+}

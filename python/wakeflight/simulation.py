@@ -1,0 +1,445 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""A flight that can be stepped, kept and continued: one owner of everything that changes [ribera2004, Fig. 2].
+
+1. Trim with the relaxation wake (`trim.py`). 2. Convergence phase: states and controls frozen, the time-marching wake
+advanced. 3. The wake gives the inflow at every blade station, held while the solver integrates F(y_dot, y, u; t) = 0 over
+one step of azimuth; states, circulation and hub motion go to the wake; the wake advances by one step.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, Protocol
+
+import numpy as np
+
+from . import _core
+from .errors import InputError, NumericalFailure
+from .exchange import Exchange, MarchingExchange, exchange_from, exchange_of
+from .inflow import InflowModel, inflow_model, like
+from .integrators import INTEGRATORS
+from .maneuvers import STICKS
+from .model import Model, flight_regime
+from .progress import Progress, Silent
+from .snapshot import Snapshot
+from .trim import INCH, Trim
+from .units import quantity
+from .views import html_table
+
+RTOL = 1e-5
+"""Relative tolerance of the solver that the absolute ones belong to."""
+
+
+class StickPath(Protocol):
+    """Sticks over a coupling step, linear in time between corners."""
+
+    def at(self, t: float) -> np.ndarray:
+        """Positions (4,) [m from the stop] at time `t` [s]."""
+
+    def rate(self, t: float) -> np.ndarray:
+        """Rates (4,) [m/s] at time `t` [s]."""
+
+    def pieces(self, t0: float, t1: float) -> list[tuple[float, float]]:
+        """The interval t0..t1 cut at the corners."""
+
+
+@dataclass(frozen=True)
+class Ramp:
+    """Sticks [m] that go from one place to another in a coupling step, and arrive with the rate they moved at."""
+
+    begin: float
+    end: float
+    start: np.ndarray
+    target: np.ndarray
+
+    def at(self, t: float) -> np.ndarray:
+        """Positions (4,) [m from the stop] at time `t` [s]."""
+        return self.target if t >= self.end else self.start + self.rate(t) * (t - self.begin)
+
+    def rate(self, t: float) -> np.ndarray:
+        """Rates (4,) [m/s]."""
+        return (self.target - self.start) / (self.end - self.begin)
+
+    def pieces(self, t0: float, t1: float) -> list[tuple[float, float]]:
+        """One."""
+        return [(t0, t1)]
+
+
+@dataclass(frozen=True)
+class Instant:
+    """Where a coupling step begins: state, its consistent rate, and the inputs that begin there."""
+
+    step: int
+    t: float
+    y: np.ndarray
+    y_dot: np.ndarray
+    inputs: _core.Inputs
+    stick: np.ndarray
+    mean_inflow: float
+    stabilator: float
+
+
+class Observer(Protocol):
+    """What hangs on a simulation and cannot change it: a recorder, a monitor, a live view."""
+
+    def __call__(self, instant: Instant) -> None:
+        """A coupling step begins."""
+
+
+@dataclass(frozen=True)
+class State:
+    """What a flight is at, to look at; SI, angles in rad, body axes."""
+
+    t: float
+    y: np.ndarray
+    velocity: np.ndarray
+    """u, v, w [m/s]."""
+    rates: np.ndarray
+    """p, q, r [rad/s]."""
+    attitude: np.ndarray
+    """Roll, pitch, yaw [rad]."""
+    position: np.ndarray
+    """North, east, down [m]."""
+    stick: dict[str, float]
+    """Sticks by name [inches about trim]."""
+
+
+@dataclass
+class ConvergencePhase:
+    """What the convergence phase left: change of inflow per revolution over its mean, thrust, maps before and after."""
+
+    change: list[float] = field(default_factory=list)
+    circulation_lift: list[float] = field(default_factory=list)
+    before: np.ndarray | None = None
+    after: np.ndarray | None = None
+    seconds: float = 0.0
+    segment_evaluations: int = 0
+
+
+class Simulation:
+    """A flight from `start` that is flown step by step; owns states, wake, memory of the integrator, servo and clock.
+
+    inflow: name or model as for `fly`, by default time-marching from a trim on a free wake, dynamic from a dynamic one; a
+    marching wake goes through its convergence phase here. integrator: `fixed`, one step of order five per coupling step, or
+    `ida`, variable in step and order. control: None, sticks come with every step. rtol, stabilator: as for `fly`.
+
+    `snapshot()` is everything that what comes depends on; after `restore(snapshot)` the same bits follow, here, in a copy or in
+    another process. IDA hides its memory (history, order, step, derivatives): with `ida` a snapshot, and a restoration too,
+    starts it anew at that moment, so that the flight that was kept and the one that goes on from it follow the same bits. They
+    differ within the tolerances from a flight without a snapshot there. `fixed` does not notice.
+
+    After a `NumericalFailure` a simulation is at no definite moment: restore a snapshot to go on.
+    """
+
+    def __init__(
+        self,
+        start: Trim,
+        inflow: str | InflowModel | None = None,
+        integrator: str = "fixed",
+        control: None = None,
+        *,
+        rtol: float = RTOL,
+        stabilator: str = "held",
+        progress: Progress | Silent | None = None,
+    ):
+        if control is not None:
+            raise InputError.of("control", control, "allowed: None, sticks come with every step")
+        self._prepare(start, flight_model(start, inflow), integrator, rtol, stabilator)
+        self.converge(progress or Silent())
+
+    @classmethod
+    def prepared(
+        cls, start: Trim, inflow: str | InflowModel | None, integrator: str, rtol: float, stabilator: str
+    ) -> Simulation:
+        """A simulation that has been checked; `converge` must follow."""
+        sim = cls.__new__(cls)
+        sim._prepare(start, flight_model(start, inflow), integrator, rtol, stabilator)
+        return sim
+
+    def converge(self, progress: Progress | Silent) -> None:
+        """Start the exchange; a marching wake goes through its convergence phase."""
+        self.exchange, self.phase = begun(self.model, self.start, progress)
+
+    def _prepare(self, start: Trim, model: Model, integrator: str, rtol: float, stabilator: str) -> None:
+        """Everything but the exchange."""
+        if integrator not in INTEGRATORS:
+            raise InputError.of("integrator", integrator, f"allowed: {', '.join(INTEGRATORS)}")
+        if stabilator not in ("held", "scheduled"):
+            raise InputError.of("stabilator", stabilator, "allowed: held, scheduled")
+        self.start, self.model = start, model
+        self.integrator, self.rtol, self.stabilator = integrator, rtol, stabilator
+        self.delta_t = 2 * np.pi / model.omega / model.steps_per_revolution
+        self.solver = INTEGRATORS[integrator](model, rtol, atol_scale=rtol / RTOL)
+        self.seconds = {"wake": 0.0, "dynamics": 0.0}
+        self._y, self._step = start.state(0.0), 0
+        self._stick, self._incidence = self._asked(None), start.stabilator_incidence
+
+    @property
+    def t(self) -> float:
+        """Time since the start [s]: steps flown times the length of one, never a sum."""
+        return self._step * self.delta_t
+
+    @property
+    def steps(self) -> int:
+        """Coupling steps flown."""
+        return self._step
+
+    @property
+    def y(self) -> np.ndarray:
+        """A copy of the states; names and units are those of `model.core.state_names()`."""
+        return np.array(self._y)
+
+    @property
+    def state(self) -> State:
+        """The states by name."""
+        y = self.y
+        w, x, i, z = y[6:10] / np.linalg.norm(y[6:10])
+        roll = np.arctan2(2 * (w * x + i * z), 1 - 2 * (x * x + i * i))
+        pitch = np.arcsin(np.clip(2 * (w * i - z * x), -1, 1))
+        yaw = np.arctan2(2 * (w * z + x * i), 1 - 2 * (i * i + z * z))
+        about_trim = (self._stick - self._asked(None)) / INCH
+        stick = dict(zip(STICKS, about_trim.tolist(), strict=True))
+        return State(self.t, y, y[:3], y[3:6], np.array([roll, pitch, yaw]), y[10:13], stick)
+
+    @property
+    def wake(self) -> np.ndarray | None:
+        """Tip vortices (n_blades, n_ages, 3) [m], hub axes; None without a wake."""
+        tips = self.exchange.tips(self._step)
+        return None if tips is None else tips[0]
+
+    @property
+    def loads(self) -> dict[str, Any]:
+        """Loads and section values at this moment with the sticks where they are, as a run records them."""
+        inputs, _ = self._inputs(self._stick, np.zeros(4))
+        y_dot = self.model.core.consistent_rate(self.t, self._y, inputs)
+        return self.model.core.outputs(self.t, self._y, y_dot, inputs)
+
+    def step(self, sticks: Mapping[str, float] | Sequence[float] | None = None, dt: Any = None) -> State:
+        """Fly one coupling step, or the whole number of them nearest to `dt` (text with a unit).
+
+        sticks: inches about trim, by name or all four (lateral, longitudinal, collective, pedal); None, and names that are
+        absent: at trim. Each goes from where it is to the new place linearly within the first step and stays there.
+        """
+        target = self._asked(sticks)
+        n = 1 if dt is None else max(1, round(quantity(dt, "s", "dt") / self.delta_t))
+        try:
+            for _ in range(n):
+                self.follow(Ramp(self.t, (self._step + 1) * self.delta_t, self._stick, target))
+        except (ArithmeticError, np.linalg.LinAlgError) as reason:
+            raise NumericalFailure(f"simulation stopped at t = {self.t:.4f} s: {reason}") from reason
+        return self.state
+
+    def _asked(self, sticks: Mapping[str, float] | Sequence[float] | None) -> np.ndarray:
+        """Sticks [m from the stop] for what was asked [inches about trim]."""
+        sticks = {} if sticks is None else sticks
+        if isinstance(sticks, Mapping):
+            for name in sticks:
+                if name not in STICKS:
+                    raise InputError.of("stick", name, f"allowed: {', '.join(STICKS)}")
+            sticks = [sticks.get(name, 0.0) for name in STICKS]
+        try:
+            asked = np.array(sticks, dtype=float)
+        except (TypeError, ValueError) as reason:
+            raise InputError.of("sticks", sticks, "must be inches about trim, by name or all four") from reason
+        if asked.shape != (4,) or not np.isfinite(asked).all():
+            raise InputError.of("sticks", sticks, "must be four finite numbers, inches about trim")
+        inches = self.start.stick_si / INCH + asked
+        for name, moved, value, full in zip(STICKS, asked, inches, self.start.aircraft.stick_travel_in, strict=True):
+            if moved and not -1e-9 <= value <= full + 1e-9:
+                raise InputError.of(name, f"{value:.4g} in from the stop", f"must lie between 0 and {full:g} in")
+        return INCH * inches
+
+    def follow(self, sticks: StickPath, observer: Observer | None = None) -> None:
+        """Fly one coupling step along `sticks`; `observer` sees where it begins."""
+        t, end = self.t, (self._step + 1) * self.delta_t
+        begin = self.instant(sticks)
+        if observer is not None:
+            observer(begin)
+
+        clock = time.perf_counter()
+        if not self.solver.begun:
+            self.solver.start(t, self._y, begin.y_dot)
+        inputs = begin.inputs
+        for t0, t1 in sticks.pieces(t, end):
+            if t0 > t:
+                inputs = coupling_inputs(sticks, t0, *self.exchange.held(self._step), self._incidence)
+            self.solver.advance_to(t1, inputs)
+        self._y = self.solver.state
+        self.seconds["dynamics"] += time.perf_counter() - clock
+
+        self._step += 1
+        self._stick = sticks.at(end)
+        clock = time.perf_counter()
+        self.exchange.reach(self._step, self._y, self._stick, sticks.rate(end))
+        self.seconds["wake"] += time.perf_counter() - clock
+
+    def instant(self, sticks: StickPath, ends: bool = False) -> Instant:
+        """Where the next coupling step along `sticks` begins; `ends`: no step follows, the servo rests."""
+        t = self.t
+        stick = sticks.at(t)
+        if self.stabilator == "scheduled" and self._step > 0 and not ends:
+            follow = self.model.core.followed_incidence
+            self._incidence = follow(self._incidence, self._y, float(stick[2]), self.delta_t)
+        inputs, mean = self._inputs(stick, sticks.rate(t))
+        clock = time.perf_counter()
+        y_dot = self.solver.consistent(t, self._y, inputs)
+        self.seconds["dynamics"] += time.perf_counter() - clock
+        return Instant(self._step, t, self._y, y_dot, inputs, stick, mean, self._incidence)
+
+    def _inputs(self, stick: np.ndarray, stick_rate: np.ndarray) -> tuple[_core.Inputs, float]:
+        held, mean = self.exchange.held(self._step)
+        return _core.Inputs(stick, stick_rate, self.t, held, mean, self._incidence), mean
+
+    def snapshot(self) -> Snapshot:
+        """Everything that what comes depends on; with `ida` the integrator begins anew at this moment."""
+        scalars = {
+            "step": self._step,
+            "stick": self._stick.tolist(),
+            "stabilator": self._incidence,
+        }
+        parts = {
+            "y": np.asarray(self._y, "<f8").tobytes(),
+            "integrator": self.solver.memory(),
+            "exchange": bytes(self.exchange.core.to_bytes()),
+        }
+        return Snapshot(self.configuration, scalars, parts)
+
+    def restore(self, snapshot: Snapshot) -> None:
+        """Go on from `snapshot`, of this simulation or of one of the same configuration from the same trim."""
+        try:
+            snapshot.check(self.configuration)
+        except AttributeError as reason:
+            kind = type(snapshot).__name__
+            raise InputError.of("snapshot", kind, "must be what Simulation.snapshot returned") from reason
+        exchange = exchange_from(self.model, snapshot.parts["exchange"])
+        y = np.frombuffer(snapshot.parts["y"], "<f8").copy()
+        self.solver.recall(snapshot.step * self.delta_t, y, snapshot.parts["integrator"])
+        self.exchange, self._y, self._step = exchange, y, snapshot.step
+        self._stick = np.array(snapshot.scalars["stick"])
+        self._incidence = snapshot.scalars["stabilator"]
+
+    @property
+    def configuration(self) -> dict[str, str]:
+        """What a snapshot belongs to, by name: aircraft and its data, condition, inflow model, integrator, trim."""
+        model, start = self.model, self.start
+        data = json.dumps(model.data, sort_keys=True).encode()
+        return {
+            "aircraft": start.aircraft.name,
+            "aircraft data": hashlib.sha256(data).hexdigest()[:16],
+            "discretisation": str(start.aircraft.discretisation),
+            "condition": str(start.condition),
+            "inflow": str(model.inflow),
+            "integrator": f"{self.integrator}, rtol {self.rtol!r}",
+            "stabilator": self.stabilator,
+            "trim": hashlib.sha256(np.asarray(start.x, "<f8").tobytes()).hexdigest()[:16],
+        }
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """By value: the trim, the configuration and a snapshot."""
+        own = (self.start, self.model, self.integrator, self.rtol, self.stabilator)
+        return _revived, (own, self.phase, self.seconds, self.snapshot())
+
+    def _rows(self) -> list[tuple[str, str]]:
+        state, deg = self.state, np.degrees
+        roll, pitch, yaw = deg(state.attitude)
+        p, q, r = deg(state.rates)
+        return [
+            ("aircraft", self.start.aircraft.name),
+            ("inflow, integrator", f"{self.model.inflow.name}, {self.integrator}"),
+            (
+                "time",
+                f"{self.t:.4f} s, {self._step} steps, {self._step / self.model.steps_per_revolution:.2f} revolutions",
+            ),
+            ("speed", f"{np.linalg.norm(state.velocity):.2f} m/s"),
+            ("roll, pitch, yaw", f"{roll:.2f}, {pitch:.2f}, {yaw:.2f} deg"),
+            ("p, q, r", f"{p:.2f}, {q:.2f}, {r:.2f} deg/s"),
+            ("sticks about trim", ", ".join(f"{name} {value:+.2f}" for name, value in state.stick.items()) + " in"),
+        ]
+
+    def __repr__(self) -> str:
+        """One line."""
+        own = f"{self.start.aircraft.name}, {self.model.inflow.name}, {self.integrator}"
+        return f"<Simulation: {own}, t = {self.t:.4f} s>"
+
+    def _repr_html_(self) -> str:
+        """A small table."""
+        return html_table("Simulation", self._rows())
+
+
+def _revived(
+    own: tuple[Trim, Model, str, float, str], phase: ConvergencePhase, seconds: dict[str, float], snapshot: Snapshot
+) -> Simulation:
+    """A simulation from its parts, without its convergence phase."""
+    sim = Simulation.__new__(Simulation)
+    sim._prepare(*own)
+    sim.phase, sim.seconds = phase, dict(seconds)
+    sim.restore(snapshot)
+    return sim
+
+
+def flight_model(start: Trim, inflow: str | InflowModel | None) -> Model:
+    """Model to fly with; it must belong to what the trim was made with.
+
+    What depends on the regime is that of the trimmed condition, and stays so where the manoeuvre leads into another.
+    """
+    if inflow is None:
+        inflow = "dynamic" if start.inflow.is_dynamic else "time-marching"
+    trimmed = start.inflow
+    chosen = inflow_model(inflow)
+    if chosen.is_dynamic != trimmed.is_dynamic:
+        needed = "dynamic" if chosen.is_dynamic else "relaxation"
+        raise InputError.of("inflow", chosen.name, f"needs a trim with inflow='{needed}', this one used {trimmed.name}")
+    if chosen.is_dynamic:
+        return start.model
+    if isinstance(inflow, str):
+        chosen = trimmed if trimmed.name == chosen.name else like(type(chosen), trimmed)
+    regime = flight_regime(start.aircraft, start.condition)
+    chosen = chosen.resolved(regime)
+    chosen.check_on(start.aircraft)
+    for name, before, now in chosen.unlike(trimmed.resolved(regime), start.aircraft):
+        raise InputError.of(name, now, f"must be that of the trim, {before}: trim again with this inflow model")
+    return Model.build(start.aircraft, start.condition, chosen)
+
+
+def coupling_inputs(
+    sticks: StickPath, t: float, held: np.ndarray | None, mean: float, stabilator_incidence: float
+) -> _core.Inputs:
+    """Sticks from `t` on; inflow and stabilator held."""
+    return _core.Inputs(sticks.at(t), sticks.rate(t), t, held, mean, stabilator_incidence)
+
+
+def begun(model: Model, start: Trim, progress: Progress | Silent) -> tuple[Exchange, ConvergencePhase]:
+    """The exchange at the start of a flight; a marching wake after its convergence phase."""
+    n = model.steps_per_revolution
+    exchange = exchange_of(model, start.wake, lambda: model.core.trim_motion(start.problem, start.x, n))
+    return exchange, converge(exchange, start, progress) if exchange.marches else ConvergencePhase()
+
+
+def converge(marching: MarchingExchange, start: Trim, progress: Progress | Silent) -> ConvergencePhase:
+    """Advance the wake at frozen states and controls; the circulation follows the inflow."""
+    model = marching.model
+    revolutions = model.inflow.convergence_revolutions
+    phase = ConvergencePhase(before=start.inflow_map)
+    clock = time.perf_counter()
+    progress.phase("convergence of the wake", revolutions)
+    previous = start.inflow_map
+    widths = np.asarray(model.rotor["widths"])
+    for _ in range(revolutions):
+        inflow_map, circulation = marching.turn(start.problem, start.x)
+        if not np.all(np.isfinite(inflow_map)):
+            raise NumericalFailure("convergence phase of the wake left the finite numbers")
+        change = np.sqrt(np.mean((inflow_map - previous) ** 2 @ model.area_weights)) / abs(model.disk_mean(inflow_map))
+        phase.change.append(float(change))
+        phase.circulation_lift.append(float(np.mean(circulation @ (model.stations * widths))))
+        if phase.after is None:
+            phase.before = inflow_map
+        phase.after = previous = inflow_map
+        progress.advance(1, f"inflow changes by {change:.1e} of its mean")
+    marching.core.restart()
+    phase.seconds = time.perf_counter() - clock
+    phase.segment_evaluations = marching.segment_evaluations
+    return phase
