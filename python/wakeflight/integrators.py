@@ -9,7 +9,7 @@ import numpy as np
 
 from . import _core
 from .errors import NumericalFailure
-from .model import Model
+from .model import CompiledRotor, Model
 
 
 class Integrator(Protocol):
@@ -200,9 +200,9 @@ class FixedIntegrator:
     KEPT = 20.0
     """Azimuth [deg] over which dF/dy is kept."""
 
-    def __init__(self, model: Model, rtol: float = 1e-5, atol_scale: float = 1.0, parts: int = 1):
+    def __init__(self, model: CompiledRotor, rtol: float = 1e-5, atol_scale: float = 1.0, parts: int = 1):
         self.model, self.rtol, self.parts = model, rtol, parts
-        self.explicit = not model.aircraft.flexible
+        self.explicit = not model.flexible
         self.atol = atol_scale * absolute_tolerances(model)
         self._solver: _core.FixedStep | _core.ExplicitStep | None = None
         self._y: np.ndarray | None = None
@@ -281,19 +281,19 @@ INTEGRATORS = {"ida": IdaIntegrator, "fixed": FixedIntegrator}
 """Solvers by the name the command line uses."""
 
 
-def absolute_tolerances(model: Model) -> np.ndarray:
-    """Absolute tolerance per state: what does not matter in flight (1e-5 m/s, 1e-6 rad, 1e-6 of inflow ...)."""
-    angle = 1e-6
-    atol = np.empty(model.layout["size"])
-    atol[0:3] = 1e-5
-    atol[3:6] = angle
-    atol[6:10] = angle
-    atol[10:13] = 1e-4
-    modal = angle / np.asarray(model.rotor["angle_per_coordinate"])
+TOLERANCES = {"m/s": 1e-5, "rad/s": 1e-6, "m": 1e-4, "1": 1e-6}
+"""What does not matter in flight of a state, by its unit: attitude (quaternion) and inflow are numbers."""
+ANGLE = 1e-6
+"""The same of a blade's modal coordinate, as an angle [rad]."""
+
+
+def absolute_tolerances(model: CompiledRotor) -> np.ndarray:
+    """Absolute tolerance per state: what does not matter in flight."""
+    atol = np.array([TOLERANCES.get(unit, np.nan) for _, unit in model.core.state_names()])
+    modal = ANGLE / np.asarray(model.rotor["angle_per_coordinate"])
     fastest = np.maximum(np.asarray(model.rotor["frequencies"]), model.omega)
-    for (a, b), (c, d) in zip(model.layout["modal"], model.layout["modal_rate"], strict=True):
+    layout = model.core.layout()
+    for (a, b), (c, d) in zip(layout["modal"], layout["modal_rate"], strict=True):
         atol[a:b] = modal
         atol[c:d] = modal * fastest
-    atol[slice(*model.layout["inflow"])] = 1e-6
-    atol[slice(*model.layout["tail_inflow"])] = 1e-6
     return atol

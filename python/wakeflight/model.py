@@ -66,6 +66,11 @@ class CompiledRotor:
         """Number of blades."""
         return self.rotor["n_blades"]
 
+    @property
+    def flexible(self) -> bool:
+        """Whether blades bend: the rates of rigid ones are had in closed form."""
+        return not self.rotor["rigid"]
+
     @cached_property
     def stations(self) -> np.ndarray:
         """Stations of the air loads (n_stations,) [m]."""
@@ -115,6 +120,21 @@ class CompiledRotor:
         wake = self.inflow if self.inflow.is_free_wake else RelaxationWake()
         return bounds(self.rotor, self.rotor_tables, self.speed_of_sound, wake, self.has_thin_sections)
 
+    @cached_property
+    def layout(self) -> dict[str, Any]:
+        """Where the parts of y start."""
+        return self.core.layout()
+
+    def modal(self, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Modal coordinates and rates of all blades, (n_blades, n_modes) each."""
+        q, q_dot = self._modal_places
+        return y[q], y[q_dot]
+
+    @cached_property
+    def _modal_places(self) -> tuple[np.ndarray, np.ndarray]:
+        q, q_dot = (np.array([range(a, b) for a, b in self.layout[part]], int) for part in ("modal", "modal_rate"))
+        return q, q_dot
+
     def disk_mean(self, inflow: np.ndarray) -> float:
         """Area mean of an inflow map (..., n_stations)."""
         return disk.disk_mean(inflow, self.area_weights)
@@ -123,6 +143,25 @@ class CompiledRotor:
         """Area mean and first harmonics of an inflow map (n_azimuths, n_stations), the first azimuth being zero."""
         psi = 2 * np.pi * np.arange(inflow.shape[0]) / inflow.shape[0]
         return disk.first_harmonics(inflow, psi, self.stations / self.rotor["radius"], self.area_weights)
+
+
+def setting(air: tuple[float, float], inflow: Any, discretisation: Any, gravity: float = STANDARD_GRAVITY) -> dict[str, Any]:
+    """What the core is built for besides the data: density [kg/m3] and speed of sound [m/s], weight, inflow, discretisation."""
+    d = discretisation
+    return {
+        "air": {"density": air[0], "speed_of_sound": air[1]},
+        "gravity": gravity,
+        "free_wake": not inflow.is_dynamic,
+        "discretisation": {
+            "n_elements": d.n_elements,
+            "n_modes": d.n_modes,
+            "n_gauss": d.n_gauss,
+            "n_stations": inflow.n_stations,
+            "reference_pitch": float(d.reference_pitch),
+        },
+        "lift": None,
+        "mass_flow": "momentum",
+    }
 
 
 def flight_regime(aircraft: Aircraft, condition: FlightCondition) -> str:
@@ -137,7 +176,7 @@ class Model(CompiledRotor):
     aircraft: Aircraft
     condition: FlightCondition
     inflow: InflowModel
-    core: _core.Aircraft
+    core: _core.System
     data: dict[str, Any]
     density: float
     speed_of_sound: float
@@ -155,21 +194,10 @@ class Model(CompiledRotor):
         """
         density, speed_of_sound, _ = _core.standard_atmosphere(condition.altitude)
         data = aircraft.core_data(condition)
-        d = aircraft.discretisation
         inflow = inflow.resolved(flight_regime(aircraft, condition))
         inflow.step(aircraft)
-        core = _core.Aircraft(
-            json.dumps(data),
-            density,
-            speed_of_sound,
-            STANDARD_GRAVITY,
-            not inflow.is_dynamic,
-            d.n_elements,
-            d.n_modes,
-            d.n_gauss,
-            inflow.n_stations,
-            d.reference_pitch,
-        )
+        chosen = setting((density, speed_of_sound), inflow, aircraft.discretisation)
+        core = _core.System.aircraft(json.dumps(data), json.dumps(chosen))
         return cls(aircraft, condition, inflow, core, data, density, speed_of_sound, target)
 
     @property
@@ -222,21 +250,6 @@ class Model(CompiledRotor):
     def linearised(self) -> _core.Linearised:
         """Room for the derivatives of F."""
         return _core.Linearised(self.core)
-
-    @cached_property
-    def layout(self) -> dict[str, Any]:
-        """Where the parts of y start."""
-        return self.core.layout()
-
-    def modal(self, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Modal coordinates and rates of all blades, (n_blades, n_modes) each."""
-        q, q_dot = self._modal_places
-        return y[q], y[q_dot]
-
-    @cached_property
-    def _modal_places(self) -> tuple[np.ndarray, np.ndarray]:
-        q, q_dot = (np.array([range(a, b) for a, b in self.layout[part]], int) for part in ("modal", "modal_rate"))
-        return q, q_dot
 
     def pitch_controls(self, stick: np.ndarray) -> np.ndarray:
         """theta_1c, theta_1s, theta_0, theta_tr [rad] for sticks [m]."""

@@ -99,11 +99,11 @@ def dynamic_map(
     psi = 2 * np.pi * np.arange(n) / n
     q, q_dot = model.core.trim_motion(problem, x, n)
     y, _ = model.core.trim_state(problem, x, 0.0)
-    hub_velocity, hub_rates = model.core.hub(y)
+    hub = model.core.hub(y)
     controls = x[: model.n_controls]
     circulation = np.array(
         [
-            model.core.section_circulation(hub_velocity, hub_rates, controls, psi[k], q[k], q_dot[k], inflow_map[k])[0]
+            model.core.section_circulation(hub, controls, (psi[k], q[k], q_dot[k]), inflow_map[k])[0]
             for k in range(n)
         ]
     )

@@ -6,6 +6,11 @@ use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use serde::{Deserialize, Serialize};
 
+/// Bad input, in Python.
+pub fn invalid(error: impl std::fmt::Display) -> PyErr {
+    PyValueError::new_err(error.to_string())
+}
+
 /// `values`, which must be `n` numbers; whether they are finite is for the solver to say.
 pub fn sized<'a>(name: &str, values: &'a [f64], n: usize) -> PyResult<&'a [f64]> {
     if values.len() == n {

@@ -1,8 +1,8 @@
 //! The exchange with the air, and the steady wake of a trim: conversions and checks, the GIL released.
 
-use crate::carrier::Core;
 use crate::checks::{map, numbers, pack, unpack};
 use crate::options::{marching_options, relaxation_options, wake_options};
+use crate::system::PySystem;
 use crate::wake::{RelaxationWake, TimeMarchingWake as PyTimeMarchingWake, py_error};
 use crate::wake::{lattice, matrix, vectors};
 use numpy::ndarray::Array;
@@ -42,7 +42,7 @@ impl PySteadyWake {
     /// On an inflow map (n_azimuths, n_stations); `steadied`: shorter steps of the geometry are taken where it circles.
     #[new]
     fn new(
-        core: Core<'_>,
+        core: &PySystem,
         options_json: &str,
         steadied: bool,
         inflow: PyReadonlyArray2<f64>,
@@ -51,7 +51,7 @@ impl PySteadyWake {
         options.validate().map_err(py_error)?;
         let own = relaxation_options(options_json)?;
         let inflow = map("inflow", &inflow, options.steps_per_revolution(), options.n_stations)?;
-        Ok(Self { inner: SteadyWake::new(options, own, steadied, core.rotor().0, inflow) })
+        Ok(Self { inner: SteadyWake::new(options, own, steadied, core.main().0, inflow) })
     }
 
     /// Iterates wake and circulation for hub motion `y`, sticks, and a periodic blade motion (n_azimuths, n_modes); whether they
@@ -59,13 +59,13 @@ impl PySteadyWake {
     fn converge(
         &mut self,
         py: Python<'_>,
-        core: Core<'_>,
+        core: &PySystem,
         y: PyReadonlyArray1<f64>,
         stick: PyReadonlyArray1<f64>,
         motion: (PyReadonlyArray2<f64>, PyReadonlyArray2<f64>),
         most: usize,
     ) -> PyResult<bool> {
-        let (hub, (rotor, air)) = (core.hub(y.as_slice()?)?, core.rotor());
+        let (hub, (rotor, air)) = (core.hub_at(y.as_slice()?)?, core.main());
         let blades = core.periodic((&motion.0, &motion.1), self.inner.n_azimuths(), stick.as_slice()?)?;
         let inner = &mut self.inner;
         py.detach(|| inner.converge(&Place { rotor, air, hub: &hub }, &blades, most)).map_err(py_error)
@@ -180,14 +180,14 @@ impl PyExchange {
 impl PyExchange {
     /// Dynamic inflow of a rotor, `n` steps in a revolution: in the state, nothing to exchange.
     #[staticmethod]
-    fn dynamic(core: Core<'_>, n: usize) -> Self {
-        Self { inner: Exchange::Dynamic, n_blades: core.rotor().0.n_blades, n }
+    fn dynamic(core: &PySystem, n: usize) -> Self {
+        Self { inner: Exchange::Dynamic, n_blades: core.main().0.n_blades, n }
     }
 
     /// Relaxation wake from that of a trim and the periodic motion of its blades (n_azimuths, n_modes).
     #[staticmethod]
     fn relaxation(
-        core: Core<'_>,
+        core: &PySystem,
         steady: &PySteadyWake,
         motion: (PyReadonlyArray2<f64>, PyReadonlyArray2<f64>),
         options_json: &str,
@@ -195,20 +195,20 @@ impl PyExchange {
         let n = steady.inner.n_azimuths();
         let motion = core.motions((&motion.0, &motion.1), n)?;
         let own = relaxation_options(options_json)?;
-        let rotor = core.rotor().0;
+        let rotor = core.main().0;
         let wake = RelaxationExchange::new(steady.inner.clone(), rotor, &own, &motion);
         Ok(Self { inner: Exchange::Relaxation(Box::new(wake)), n_blades: rotor.n_blades, n })
     }
 
     /// Marching wake from the periodic one of a trim, blade 1 at azimuth zero.
     #[staticmethod]
-    fn marching(core: Core<'_>, steady: &PySteadyWake, options_json: &str) -> PyResult<Self> {
+    fn marching(core: &PySystem, steady: &PySteadyWake, options_json: &str) -> PyResult<Self> {
         let Some(relaxation) = &steady.inner.wake else {
             return Err(PyValueError::new_err("steady wake: it has not been converged for any motion"));
         };
         let own = marching_options(options_json, relaxation.options())?;
         let wake = TimeMarchingWake::from_relaxation(relaxation, 0, own).map_err(py_error)?;
-        let rotor = core.rotor().0;
+        let rotor = core.main().0;
         let inner = MarchingExchange::new(wake, &steady.inner, rotor);
         let n = steady.inner.n_azimuths();
         Ok(Self { inner: Exchange::Marching(Box::new(inner)), n_blades: rotor.n_blades, n })
@@ -227,7 +227,7 @@ impl PyExchange {
     fn advance(
         &mut self,
         py: Python<'_>,
-        core: Core<'_>,
+        core: &PySystem,
         step: usize,
         y: PyReadonlyArray1<f64>,
         sticks: (PyReadonlyArray1<f64>, PyReadonlyArray1<f64>),
@@ -236,20 +236,20 @@ impl PyExchange {
         if matches!(self.inner, Exchange::Dynamic) {
             return Ok(());
         }
-        let (y, (rotor, air)) = (y.as_slice()?, core.rotor());
+        let (y, (rotor, air)) = (y.as_slice()?, core.main());
         if rotor.n_blades != self.n_blades {
             return Err(PyValueError::new_err(format!(
                 "rotor of {} blades, exchange of {}",
                 rotor.n_blades, self.n_blades
             )));
         }
-        let hub = core.hub(y)?;
+        let hub = core.hub_at(y)?;
         let (stick, rate) = (sticks.0.as_slice()?, sticks.1.as_slice()?);
         let stick = numbers("stick", stick, stick.len())?;
         let rate = numbers("stick_rate", rate, stick.len())?;
         let modal = match &motion {
             Some((q, q_dot)) => core.motions((q, q_dot), self.n_blades)?,
-            None => (0..self.n_blades).map(|b| core.modal(y, b)).collect::<PyResult<_>>()?,
+            None => (0..self.n_blades).map(|b| core.modal(y, b)).collect(),
         };
         let mut blades = Vec::with_capacity(self.n_blades);
         for (b, modal) in modal.into_iter().enumerate() {
@@ -274,13 +274,13 @@ impl PyExchange {
     fn turn<'py>(
         &mut self,
         py: Python<'py>,
-        core: Core<'_>,
+        core: &PySystem,
         y: PyReadonlyArray1<f64>,
         stick: PyReadonlyArray1<f64>,
         motion: (PyReadonlyArray2<f64>, PyReadonlyArray2<f64>),
     ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>)> {
-        let (n, (rotor, air)) = (self.n, core.rotor());
-        let hub = core.hub(y.as_slice()?)?;
+        let (n, (rotor, air)) = (self.n, core.main());
+        let hub = core.hub_at(y.as_slice()?)?;
         let blades = core.periodic((&motion.0, &motion.1), n, stick.as_slice()?)?;
         let Exchange::Marching(wake) = &mut self.inner else {
             return Err(PyValueError::new_err("exchange: its inflow model has no marching wake"));
@@ -416,11 +416,11 @@ impl PyExchange {
 /// velocity [m/s], hub axes: it carries the inboard sheet.
 #[pyfunction]
 fn carrying_inflow(
-    core: Core<'_>,
+    core: &PySystem,
     circulation: PyReadonlyArray2<f64>,
     hub_velocity: [f64; 3],
 ) -> PyResult<f64> {
-    let disk = core.rotor().0.lifting_disk();
+    let disk = core.main().0.lifting_disk();
     let rows = circulation.as_array().nrows();
     let circulation = map("circulation", &circulation, rows, disk.stations.len())?;
     Ok(disk.carrying_inflow(&circulation, hub_velocity))

@@ -1,7 +1,7 @@
 //! Fixed-step integration and derivatives for a solver from elsewhere: conversions and checks, the GIL released.
 
-use crate::aircraft::{PyAircraft, PyInputs};
 use crate::checks::{numbers, pack, sized, unpack};
+use crate::system::{PyInputs, PySystem};
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1, PyReadwriteArray2};
 use pyo3::exceptions::{PyArithmeticError, PyValueError};
 use pyo3::prelude::*;
@@ -26,9 +26,9 @@ impl PyFixedStep {
     /// At state `y` and time `t` [s], with tolerances; `newton_share` of them is what the Newton iteration may leave; dF/dy is
     /// kept over an azimuth of `kept` [rad].
     #[new]
-    #[pyo3(signature = (aircraft, t, y, rtol, atol, newton_share, kept=0.0))]
+    #[pyo3(signature = (system, t, y, rtol, atol, newton_share, kept=0.0))]
     fn new(
-        aircraft: &PyAircraft,
+        system: &PySystem,
         t: f64,
         y: PyReadonlyArray1<f64>,
         rtol: f64,
@@ -36,7 +36,7 @@ impl PyFixedStep {
         newton_share: f64,
         kept: f64,
     ) -> PyResult<Self> {
-        let layout = &aircraft.inner.layout;
+        let layout = &system.inner.layout;
         let (y, atol) =
             (numbers("y", y.as_slice()?, layout.len())?, numbers("atol", atol.as_slice()?, layout.len())?);
         let solver = FixedStep::new(layout, t, y, rtol, atol, newton_share);
@@ -44,22 +44,22 @@ impl PyFixedStep {
     }
 
     /// Linearises at the present state; the rate then satisfies F = 0 with `inputs`.
-    fn prepare(&mut self, py: Python<'_>, aircraft: &PyAircraft, inputs: &PyInputs) -> PyResult<()> {
-        let inputs = inputs.fitting(&aircraft.inner)?;
-        py.detach(|| self.inner.prepare(&aircraft.inner, inputs)).map_err(failed)
+    fn prepare(&mut self, py: Python<'_>, system: &PySystem, inputs: &PyInputs) -> PyResult<()> {
+        let inputs = inputs.fitting(&system.inner)?;
+        py.detach(|| self.inner.prepare(&system.inner, inputs)).map_err(failed)
     }
 
     /// Integrates to `t1` [s] in `parts` equal steps with `inputs` held.
     fn advance(
         &mut self,
         py: Python<'_>,
-        aircraft: &PyAircraft,
+        system: &PySystem,
         t1: f64,
         inputs: &PyInputs,
         parts: usize,
     ) -> PyResult<()> {
-        let inputs = inputs.fitting(&aircraft.inner)?;
-        py.detach(|| self.inner.advance(&aircraft.inner, t1, inputs, parts)).map_err(failed)
+        let inputs = inputs.fitting(&system.inner)?;
+        py.detach(|| self.inner.advance(&system.inner, t1, inputs, parts)).map_err(failed)
     }
 
     /// State.
@@ -83,13 +83,13 @@ impl PyFixedStep {
     }
 
     /// Goes on from `memory` of the same aircraft.
-    fn recall(&mut self, aircraft: &PyAircraft, memory: &[u8]) -> PyResult<()> {
+    fn recall(&mut self, system: &PySystem, memory: &[u8]) -> PyResult<()> {
         let memory: FixedMemory = unpack("integrator", memory)?;
-        let n = aircraft.inner.layout.len();
+        let n = system.inner.layout.len();
         if memory.size() != n {
             return Err(PyValueError::new_err(format!("integrator of {} states, {n} needed", memory.size())));
         }
-        self.inner.recall(&aircraft.inner, memory);
+        self.inner.recall(&system.inner, memory);
         Ok(())
     }
 }
@@ -109,27 +109,27 @@ impl PyExplicitStep {
     /// At state `y` and time `t` [s], with the tolerances that guard the step.
     #[new]
     fn new(
-        aircraft: &PyAircraft,
+        system: &PySystem,
         t: f64,
         y: PyReadonlyArray1<f64>,
         rtol: f64,
         atol: PyReadonlyArray1<f64>,
     ) -> PyResult<Self> {
-        let n = aircraft.inner.layout.len();
+        let n = system.inner.layout.len();
         let (y, atol) = (numbers("y", y.as_slice()?, n)?, numbers("atol", atol.as_slice()?, n)?);
-        let inner = ExplicitStep::new(&aircraft.inner, t, y, rtol, atol)
+        let inner = ExplicitStep::new(&system.inner, t, y, rtol, atol)
             .ok_or_else(|| PyValueError::new_err("explicit steps: for blades that do not bend"))?;
         Ok(Self { inner })
     }
 
     /// The rate then satisfies F = 0 with `inputs`.
-    fn prepare(&mut self, aircraft: &PyAircraft, inputs: &PyInputs) -> PyResult<()> {
-        self.inner.prepare(&aircraft.inner, inputs.fitting(&aircraft.inner)?).map_err(stopped)
+    fn prepare(&mut self, system: &PySystem, inputs: &PyInputs) -> PyResult<()> {
+        self.inner.prepare(&system.inner, inputs.fitting(&system.inner)?).map_err(stopped)
     }
 
     /// Integrates to `t1` [s] in `parts` equal steps with `inputs` held.
-    fn advance(&mut self, aircraft: &PyAircraft, t1: f64, inputs: &PyInputs, parts: usize) -> PyResult<()> {
-        self.inner.advance(&aircraft.inner, t1, inputs.fitting(&aircraft.inner)?, parts).map_err(stopped)
+    fn advance(&mut self, system: &PySystem, t1: f64, inputs: &PyInputs, parts: usize) -> PyResult<()> {
+        self.inner.advance(&system.inner, t1, inputs.fitting(&system.inner)?, parts).map_err(stopped)
     }
 
     /// State.
@@ -153,9 +153,9 @@ impl PyExplicitStep {
     }
 
     /// Goes on from `memory` of the same aircraft.
-    fn recall(&mut self, aircraft: &PyAircraft, memory: &[u8]) -> PyResult<()> {
+    fn recall(&mut self, system: &PySystem, memory: &[u8]) -> PyResult<()> {
         let memory: ExplicitMemory = unpack("integrator", memory)?;
-        let n = aircraft.inner.layout.len();
+        let n = system.inner.layout.len();
         if memory.size() != n {
             return Err(PyValueError::new_err(format!("integrator of {} states, {n} needed", memory.size())));
         }
@@ -177,28 +177,28 @@ struct PyLinearised {
 #[pymethods]
 impl PyLinearised {
     #[new]
-    fn new(aircraft: &PyAircraft) -> Self {
-        Self { inner: Linearised::new(&aircraft.inner.layout) }
+    fn new(system: &PySystem) -> Self {
+        Self { inner: Linearised::new(&system.inner.layout) }
     }
 
     /// y_dot that satisfies F = 0 at (t, y), from the guess `y_dot`; linearises there (`renew`), or finds dF/dy_dot alone.
     fn consistent<'py>(
         &mut self,
         py: Python<'py>,
-        aircraft: &PyAircraft,
+        system: &PySystem,
         at: (f64, PyReadonlyArray1<f64>),
         y_dot: PyReadonlyArray1<f64>,
         inputs: &PyInputs,
         renew: bool,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        let (linear, aircraft, t) = (&mut self.inner, &aircraft.inner, at.0);
-        let (n, inputs) = (aircraft.layout.len(), inputs.fitting(aircraft)?);
+        let (linear, system, t) = (&mut self.inner, &system.inner, at.0);
+        let (n, inputs) = (system.layout.len(), inputs.fitting(system)?);
         let (y, mut rate) =
             (sized("y", at.1.as_slice()?, n)?, sized("y_dot", y_dot.as_slice()?, n)?.to_vec());
         let solved = if renew {
-            linear.consistent(aircraft, (t, y), &mut rate, inputs)
+            linear.consistent(system, (t, y), &mut rate, inputs)
         } else {
-            linear.consistent_by_mass(aircraft, (t, y), &mut rate, inputs)
+            linear.consistent_by_mass(system, (t, y), &mut rate, inputs)
         };
         solved.map_err(|e| PyArithmeticError::new_err(e.to_string()))?;
         Ok(rate.into_pyarray(py))
@@ -207,30 +207,30 @@ impl PyLinearised {
     /// Linearises at (t, y, y_dot).
     fn renew(
         &mut self,
-        aircraft: &PyAircraft,
+        system: &PySystem,
         t: f64,
         y: PyReadonlyArray1<f64>,
         y_dot: PyReadonlyArray1<f64>,
         inputs: &PyInputs,
     ) -> PyResult<()> {
-        let n = aircraft.inner.layout.len();
+        let n = system.inner.layout.len();
         let (y, y_dot) = (sized("y", y.as_slice()?, n)?, sized("y_dot", y_dot.as_slice()?, n)?);
-        let at = Instant { t, y, y_dot, inputs: inputs.fitting(&aircraft.inner)? };
-        self.inner.renew(&aircraft.inner, &at);
+        let at = Instant { t, y, y_dot, inputs: inputs.fitting(&system.inner)? };
+        self.inner.renew(&system.inner, &at);
         Ok(())
     }
 
     /// Finds dF/dy_dot at (t, y); dF/dy is left as it was.
     fn renew_mass(
         &mut self,
-        aircraft: &PyAircraft,
+        system: &PySystem,
         t: f64,
         y: PyReadonlyArray1<f64>,
         inputs: &PyInputs,
     ) -> PyResult<()> {
-        let y = sized("y", y.as_slice()?, aircraft.inner.layout.len())?;
-        let at = Instant { t, y, y_dot: y, inputs: inputs.fitting(&aircraft.inner)? };
-        self.inner.renew_mass(&aircraft.inner, &at);
+        let y = sized("y", y.as_slice()?, system.inner.layout.len())?;
+        let at = Instant { t, y, y_dot: y, inputs: inputs.fitting(&system.inner)? };
+        self.inner.renew_mass(&system.inner, &at);
         Ok(())
     }
 

@@ -1,7 +1,6 @@
 //! Python bindings: conversions only.
 use pyo3::prelude::*;
 
-mod aircraft;
 mod atmosphere;
 mod blade;
 mod carrier;
@@ -11,7 +10,7 @@ mod flight;
 mod inflow;
 mod options;
 mod rotor;
-mod stand;
+mod system;
 mod trim;
 mod vortex;
 mod wake;
@@ -21,11 +20,10 @@ mod wake;
 fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add("__version__", env!("CARGO_PKG_VERSION"))?;
     atmosphere::register(m)?;
-    aircraft::register(m)?;
+    system::register(m)?;
     blade::register(m)?;
     flight::register(m)?;
     exchange::register(m)?;
-    stand::register(m)?;
     trim::register(m)?;
     inflow::register(m)?;
     options::register(m)?;

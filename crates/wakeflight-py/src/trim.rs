@@ -1,6 +1,6 @@
 //! Trim: problem, layout, residual, Jacobian, periodic motion, the same for an aircraft and a rotor on a stand.
 
-use crate::aircraft::invalid;
+use crate::checks::invalid;
 use crate::checks::{pack, unpack};
 use numpy::ndarray::Array;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2};

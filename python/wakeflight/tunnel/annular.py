@@ -62,12 +62,13 @@ def inflow_of_rings(model: StandModel, problem: _core.TrimProblem, x: np.ndarray
     q, q_dot = core.trim_motion(problem, x, n)
     psi = 2 * np.pi * np.arange(n) / n
     climb = -condition.mu_z(tip_speed)
+    hub = (list(condition.velocity), list(condition.rates))
     r = model.stations / model.rotor["radius"]
 
     def excess(lam: np.ndarray) -> np.ndarray:
         passages = zip(psi, q, q_dot, strict=True)
         lift = [
-            core.section_circulation(condition.velocity, condition.rates, x[:3], p, a, b, lam)[0]
+            core.section_circulation(hub, x[:3], (p, a, b), lam)[0]
             for p, a, b in passages
         ]
         through = np.abs(lam + climb)

@@ -12,9 +12,8 @@ import numpy as np
 from .. import _core
 from ..aircraft import Rotor
 from ..inflow import STAND_MODELS, AnnularInflow, InflowModel, inflow_model
-from ..model import CompiledRotor, Question
+from ..model import CompiledRotor, Question, setting
 from ..trim_equations import trim_problem
-from ..units import STANDARD_GRAVITY
 from .condition import StandCondition
 
 StandInflow = InflowModel | AnnularInflow
@@ -26,6 +25,15 @@ def stand_inflow(inflow: str | StandInflow) -> StandInflow:
     return inflow_model(inflow, STAND_MODELS)
 
 
+LIFT: dict[str, Any] = {
+    "lifting-line": None,
+    "second-order": "tables",
+    "weissinger": {"tangency": {"prandtl_glauert": True}},
+    "weissinger-incompressible": {"tangency": {"prandtl_glauert": False}},
+}
+"""What the lift of the sections comes from, by the model of the blade."""
+
+
 @dataclass(frozen=True)
 class StandModel(CompiledRotor):
     """Rotor, condition and inflow model compiled."""
@@ -33,7 +41,7 @@ class StandModel(CompiledRotor):
     aircraft: Rotor
     condition: StandCondition
     inflow: StandInflow
-    core: _core.Stand
+    core: _core.System
     n_harmonics: int
     blade_model: str = "lifting-line"
     """As the core reads it: lifting-line, second-order, weissinger, weissinger-incompressible."""
@@ -56,26 +64,12 @@ class StandModel(CompiledRotor):
 
         Options of the wake that depend on the regime take the numbers of the condition's.
         """
-        d = rotor.discretisation
         inflow = inflow.resolved(condition.regime(rotor.omega * rotor.radius))
         inflow.step(rotor)
-        core = _core.Stand(
-            json.dumps(rotor.data),
-            condition.density,
-            condition.speed_of_sound,
-            STANDARD_GRAVITY,
-            not inflow.is_dynamic,
-            d.n_elements,
-            d.n_modes,
-            d.n_gauss,
-            inflow.n_stations,
-            d.reference_pitch,
-            list(condition.higher),
-            blade_model,
-            windmill,
-            condition.velocity,
-            condition.rates,
-        )
+        chosen = setting((condition.density, condition.speed_of_sound), inflow, rotor.discretisation)
+        chosen |= {"lift": LIFT[blade_model], "mass_flow": "windmill_brake" if windmill else "momentum"}
+        motion = (list(condition.velocity), list(condition.rates))
+        core = _core.System.stand(json.dumps(rotor.data), json.dumps(chosen), motion, list(condition.higher))
         return cls(rotor, condition, inflow, core, n_harmonics, blade_model, windmill)
 
     @property

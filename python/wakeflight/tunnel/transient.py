@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .. import _core
 from ..errors import InputError, NumericalFailure
+from ..integrators import FixedIntegrator
 from ..monitors import Places, failures, rotor
 from ..progress import Progress, Silent
 from ..units import quantity
 from .condition import within
-from .moving_inflow import MarchedInflow, Motion, MovingInflow, StatesOfInflow
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -127,63 +128,57 @@ def transient(
 def _march(stand: Tunnel, moved: History, step: float, n_steps: int, kept: Recorder) -> Iterator[int]:
     """March `n_steps`, recording the start and every step."""
     solution, model = stand.solution, stand.model
-    core, problem, x = model.core, solution.problem, solution.x
-    air: MovingInflow = StatesOfInflow(model, solution) if model.is_dynamic else MarchedInflow(solution)
-    y = np.array([*model.condition.velocity, *model.condition.rates])
-    psi, n = air.psi(), model.steps_per_revolution
-    rows = np.round(psi * n / (2 * np.pi)).astype(int) % n
-    q, q_dot = (part[rows] for part in core.trim_motion(problem, x, n))
-    motion: Motion = (q, q_dot, np.zeros_like(q))
-    cyclic = x[1:3]
+    core, x = model.core, solution.x
+    wake = None if model.is_dynamic else solution.march.copy()
+    # the clock that azimuths are read from goes on from the wake's
+    first = 0 if wake is None else wake.step_index
+    y, _ = core.trim_state(solution.problem, x, first * step)
+    solver = FixedIntegrator(model)
     for k in range(n_steps + 1):
-        t, psi = k * step, air.psi()
+        t = (first + k) * step
         # the collective is linear over a step: corners of the history are met where steps end
-        now, ahead = moved.at(t), moved.at(t + step)
-        controls, rates = np.array([now, *cyclic]), np.array([(ahead - now) / step, 0.0, 0.0])
-        passages = core.blade_passages(y, psi, motion, controls, rates, air.inflow)
-        _record(kept, stand, air, passages, t, psi, now, motion)
+        now, ahead, later = (moved.at((k + i) * step) for i in range(3))
+        held, mean = (None, 0.0) if wake is None else wake.held(first + k)
+        inputs = _core.Inputs([now, *x[1:3], 0.0], [(ahead - now) / step, 0.0, 0.0, 0.0], t, held, mean, 0.0)
+        y_dot = solver.consistent(t, y, inputs)
+        _record(kept, stand, core.outputs(t, y, y_dot, inputs), k * step, now, model.modal(y)[0])
+        if wake is not None:
+            kept.add(wake=wake.position(), tip_circulation=wake.marker_circulation())
         if k == n_steps:
             return
-        q, q_dot, q_ddot = core.advance_blades(y, psi, motion, controls, rates, air.inflow, step)
-        motion = (q, q_dot, q_ddot)
-        later = (moved.at(t + 2 * step) - ahead) / step
-        air.advance(y, np.array([ahead, *cyclic]), np.array([later, 0.0, 0.0]), motion)
+        if not solver.begun:
+            solver.start(t, y, y_dot)
+        solver.advance_to((first + k + 1) * step, inputs)
+        y = solver.state
+        if wake is not None:
+            wake.reach(first + k + 1, y, np.array([ahead, *x[1:3]]), np.array([(later - ahead) / step, 0.0, 0.0]))
         yield k
 
 
 def _record(
-    kept: Recorder,
-    stand: Tunnel,
-    air: MovingInflow,
-    passages: dict[str, np.ndarray],
-    t: float,
-    psi: np.ndarray,
-    collective: float,
-    motion: Motion,
+    kept: Recorder, stand: Tunnel, seen: dict[str, Any], t: float, collective: float, coordinates: np.ndarray
 ) -> None:
     model = stand.model
-    force, moment = passages["aero_force"].sum(axis=0), passages["aero_moment"].sum(axis=0)
-    flap, lead = model.core.equivalent_angles(np.ascontiguousarray(motion[0]))
-    n = model.stations.size
-    _check(stand, air.inflow[:, :n], passages["mach"], psi, collective)
+    thrust, torque = seen["aero_force"][2], -seen["aero_moment"][2] * model.rotor["hand"]
+    flap, lead = model.core.equivalent_angles(np.ascontiguousarray(coordinates))
+    psi = np.asarray(seen["azimuth"])
+    _check(stand, seen["inflow"], seen["mach"], psi, collective)
     scale = model.dynamic_pressure_area
     kept.add(
         time=t,
         azimuth=psi,
         theta_0=collective,
-        ct=force[2] / scale,
-        cq=-moment[2] / (scale * stand.radius),
-        thrust=force[2],
-        torque=-moment[2],
-        hub_force=passages["force"].sum(axis=0),
-        hub_moment=passages["moment"].sum(axis=0),
+        ct=thrust / scale,
+        cq=torque / (scale * stand.radius),
+        thrust=thrust,
+        torque=torque,
+        hub_force=seen["hub_force"],
+        hub_moment=seen["hub_moment"],
         flap=flap,
         lead=lead,
         beta_0=np.mean(flap),
-        inflow_mean=model.disk_mean(air.inflow[:, :n]),
-        inflow=air.inflow[:, :n],
-        **{name: passages[name] for name in ("circulation", "cl", "alpha")},
-        **air.kept(),
+        inflow_mean=model.disk_mean(seen["inflow"]),
+        **{name: seen[name] for name in ("inflow", "circulation", "cl", "alpha")},
     )
 
 

@@ -4,6 +4,7 @@ use super::kinematics::{BladeAxes, SectionMotion};
 use crate::airfoil::Airfoil;
 use crate::numerics::frames::Vec3;
 use crate::numerics::scalar::Real;
+use serde::Deserialize;
 
 /// A blade station: middle of one spanwise element.
 #[derive(Clone, Copy, Debug)]
@@ -21,7 +22,8 @@ pub struct StationGeometry {
 }
 
 /// Density [kg/m3] and speed of sound [m/s].
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Air {
     /// Density.
     pub density: f64,

@@ -10,6 +10,7 @@ use super::quadrature::gauss_points;
 use super::rigid::RigidBlade;
 use super::section::{BladeProperties, Root};
 use super::strain::Stiffness;
+use serde::Deserialize;
 
 /// Mass and stiffness of a quadrature point, times its weight.
 #[derive(Clone, Debug)]
@@ -40,7 +41,8 @@ pub struct AeroStation {
 }
 
 /// How finely a blade is resolved.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Discretisation {
     /// Finite elements.
     pub n_elements: usize,

@@ -8,13 +8,15 @@ use super::kinematics::{BladeAxes, SectionMotion};
 use crate::airfoil::Airfoil;
 use crate::numerics::frames::Vec3;
 use crate::numerics::scalar::Real;
+use serde::Deserialize;
 use std::f64::consts::PI;
 
 /// Mach number beyond which the Prandtl-Glauert factor is held.
 const FACTOR_LIMIT: f64 = 0.9;
 
 /// Where the lift of a section comes from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum SectionLift {
     /// Flow tangency of a thin section.
     Tangency {

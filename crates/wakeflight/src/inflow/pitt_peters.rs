@@ -3,6 +3,7 @@
 //! lambda(r, psi) = lambda_0 + lambda_s r sin psi + lambda_c r cos psi, r = 1 at the tip, psi = 0 aft, down positive.
 
 use crate::numerics::scalar::Real;
+use serde::Deserialize;
 use std::f64::consts::PI;
 
 /// Apparent mass of the uniform state, M11.
@@ -15,7 +16,8 @@ pub enum ApparentMass {
 }
 
 /// Which mean inflow enters the mass-flow parameters V_T and V_m.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum MassFlow {
     /// The value of momentum theory at the thrust of the moment.
     Momentum,

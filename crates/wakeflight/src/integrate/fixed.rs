@@ -366,7 +366,8 @@ impl FixedStep {
                 sum += (dz * weight).powi(2);
             }
         }
-        (sum / (STAGES * n) as f64).sqrt()
+        // a stand whose blades are held and whose inflow is given has no state
+        if n == 0 { 0.0 } else { (sum / (STAGES * n) as f64).sqrt() }
     }
 
     /// Takes the last stage as the new state.

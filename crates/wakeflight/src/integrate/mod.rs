@@ -5,4 +5,3 @@ pub mod explicit;
 pub mod fixed;
 pub mod linearised;
 pub mod radau;
-pub mod stand;

@@ -22,6 +22,14 @@ pub enum Sense {
 }
 
 impl Sense {
+    /// 1 counter-clockwise, -1 clockwise.
+    pub fn hand(self) -> f64 {
+        match self {
+            Self::CounterClockwise => 1.0,
+            Self::Clockwise => -1.0,
+        }
+    }
+
     /// Velocity, acceleration or force as the twin has it, and back.
     #[inline(always)]
     pub fn polar<S: Real, F>(self, v: Vec3<S, F>) -> Vec3<S, F> {

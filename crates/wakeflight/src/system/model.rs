@@ -14,6 +14,7 @@ use crate::inflow::pitt_peters::{MassFlow, PittPeters};
 use crate::rotor::data::RotorData;
 use crate::rotor::hub::Rotor;
 use crate::rotor::swashplate::Rigging;
+use serde::Deserialize;
 use thiserror::Error;
 
 /// Standard gravity [m/s2].
@@ -50,7 +51,8 @@ pub struct System {
 }
 
 /// Air, weight and discretisation of a condition.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Setting {
     /// Air.
     pub air: Air,

@@ -1,31 +1,28 @@
-//! The aircraft: F, its Jacobian, trim equations, exchange with the wake, outputs.
+//! The system: F, its Jacobian, trim equations, what a run records.
 
-use crate::checks::sized;
+use crate::checks::{invalid, map, sized};
 use crate::rotor::{motion, rotor_constants};
 use crate::trim::{self, Motion, PyTrimLayout, PyTrimProblem};
 use numpy::ndarray::Array;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
 use numpy::{PyReadwriteArray1, PyReadwriteArray2};
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use wakeflight::airframe::servo::Scheduled;
-use wakeflight::blade::aerodynamics::Air;
-use wakeflight::blade::model::Discretisation;
-use wakeflight::inflow::pitt_peters::MassFlow;
-use wakeflight::numerics::frames::{Hub, Vec3};
+use wakeflight::blade::loads::{BladeInflow, HubMotion};
+use wakeflight::numerics::frames::Vec3;
 use wakeflight::rotor::circulation::BladeInstant;
-use wakeflight::system::carrier::Carrier;
+use wakeflight::rotor::data::RotorData;
+use wakeflight::rotor::passages::FIELDS;
+use wakeflight::rotor::swashplate::{PitchHarmonic, Rigging};
+use wakeflight::system::carrier::Stand;
 use wakeflight::system::data::AircraftData;
 use wakeflight::system::instant::{HeldInflow, Inputs, Instant};
 use wakeflight::system::model::{Setting, System};
+use wakeflight::trim::host::Host;
 use wakeflight::trim::residual::Trim;
 
-pub(crate) fn invalid(error: impl std::fmt::Display) -> PyErr {
-    PyValueError::new_err(error.to_string())
-}
-
-/// What acts on the aircraft over one coupling step; see `wakeflight.flight`.
+/// What acts on the system over one coupling step; see `wakeflight.flight`.
 #[pyclass(name = "Inputs", frozen)]
 pub struct PyInputs(pub(crate) Inputs);
 
@@ -68,7 +65,7 @@ impl PyInputs {
                     return Err(invalid(format!("inflow has {} numbers, {needed} needed", inflow.len())));
                 }
                 HeldInflow::Dynamic if !l.dynamic_inflow => {
-                    return Err(invalid("inflow: needed, this aircraft has no inflow states"));
+                    return Err(invalid("inflow: needed, there are no inflow states"));
                 }
                 _ => {}
             }
@@ -77,39 +74,38 @@ impl PyInputs {
     }
 }
 
-/// Aircraft of one condition.
-#[pyclass(name = "Aircraft", frozen)]
-pub struct PyAircraft {
+/// Carrier with its rotors of one condition: an aircraft, or a rotor on a stand.
+#[pyclass(name = "System", frozen)]
+pub struct PySystem {
     pub(crate) inner: System,
 }
 
-fn hub_vector(v: [f64; 3]) -> Vec3<f64, Hub> {
-    Vec3::from_array(v)
-}
-
 #[pymethods]
-impl PyAircraft {
-    /// From the JSON of the aircraft data, air, discretisation; `free_wake` takes the inflow states out of y.
-    #[new]
-    #[allow(clippy::too_many_arguments, reason = "the fields of the discretisation")]
-    fn new(
-        data_json: &str,
-        density: f64,
-        speed_of_sound: f64,
-        gravity: f64,
-        free_wake: bool,
-        n_elements: usize,
-        n_modes: usize,
-        n_gauss: usize,
-        n_stations: usize,
-        reference_pitch: f64,
-    ) -> PyResult<Self> {
+impl PySystem {
+    /// An aircraft in flight, from the JSON of its data and of the setting: air, gravity, free wake, discretisation ...
+    #[staticmethod]
+    fn aircraft(data_json: &str, setting_json: &str) -> PyResult<Self> {
         let data: AircraftData = serde_json::from_str(data_json).map_err(invalid)?;
-        let discretisation = Discretisation { n_elements, n_modes, n_gauss, n_stations, reference_pitch };
-        let air = Air { density, speed_of_sound };
-        let (lift, mass_flow) = (None, MassFlow::Momentum);
-        let setting = Setting { air, gravity, free_wake, discretisation, lift, mass_flow };
+        let setting: Setting = serde_json::from_str(setting_json).map_err(invalid)?;
         Ok(Self { inner: System::aircraft(&data, &setting).map_err(invalid)? })
+    }
+
+    /// A rotor on a stand that goes at `motion`, velocity [m/s] and rates [rad/s], hub axes; `higher` harmonics of its pitch
+    /// (order, cosine, sine [rad]).
+    #[staticmethod]
+    fn stand(
+        data_json: &str,
+        setting_json: &str,
+        motion: ([f64; 3], [f64; 3]),
+        higher: Vec<(usize, f64, f64)>,
+    ) -> PyResult<Self> {
+        let data: RotorData = serde_json::from_str(data_json).map_err(invalid)?;
+        let setting: Setting = serde_json::from_str(setting_json).map_err(invalid)?;
+        let mut rotor = setting.rotor(&data, &Rigging::direct()).map_err(invalid)?;
+        rotor.higher =
+            higher.into_iter().map(|(order, cosine, sine)| PitchHarmonic { order, cosine, sine }).collect();
+        let (velocity, rates) = motion;
+        Ok(Self { inner: System::on_stand(Stand { velocity, rates }, vec![rotor], &setting) })
     }
 
     /// Names and units of the states, in order.
@@ -266,19 +262,18 @@ impl PyAircraft {
         delta_t: f64,
     ) -> PyResult<f64> {
         let y = y.as_slice()?;
-        let &[u, v, w, _, pitch_rate, ..] = y else {
-            return Err(invalid(format!("y has {} numbers, {} needed", y.len(), self.inner.layout.len())));
+        let y = sized("y", y, self.inner.layout.len())?;
+        let (Some(airframe), &[u, v, w, _, pitch_rate, ..]) = (self.inner.carrier.airframe(), y) else {
+            return Ok(incidence);
         };
-        let Carrier::Airframe(airframe) = &self.inner.carrier else { return Ok(incidence) };
         let density = self.inner.air.density;
         let seen = Scheduled { velocity: [u, v, w], pitch_rate, collective, density };
         Ok(airframe.followed_incidence(incidence, &seen, delta_t))
     }
 
-    /// Hub velocity [m/s] and rates [rad/s], non-rotating hub axes.
+    /// Hub velocity [m/s] and rates [rad/s], non-rotating hub axes as the rotor's sense has them.
     fn hub(&self, y: PyReadonlyArray1<f64>) -> PyResult<([f64; 3], [f64; 3])> {
-        let y = y.as_slice()?;
-        let hub = self.inner.hub_motion(0, y, &vec![0.0; y.len()]);
+        let hub = self.hub_at(y.as_slice()?)?;
         Ok((hub.velocity.array(), hub.omega.array()))
     }
 
@@ -299,77 +294,105 @@ impl PyAircraft {
 
     /// Circulation and near wake solved together for a set of blade instants.
     ///
-    /// psi (m,), q and q_dot (m, n_modes), lambda_far and start (m, n_stations); hub motion in hub axes; sticks [m], [m/s].
-    /// Returns circulation, total inflow (m, n_stations), largest residual [m2/s], number that Newton did not find from `start`.
-    #[allow(clippy::too_many_arguments, clippy::type_complexity, reason = "one call per exchange")]
+    /// psi (m,), motion q and q_dot (m, n_modes), far inflow and start (m, n_stations); sticks with their rates. Returns circulation,
+    /// total inflow (m, n_stations; of thin sections twice as wide), largest residual [m2/s], number that Newton did not find.
+    #[allow(clippy::type_complexity, reason = "arrays")]
     fn solve_circulation<'py>(
         &self,
         py: Python<'py>,
         wake_options: &str,
         y: PyReadonlyArray1<f64>,
-        stick: [f64; 4],
-        stick_rate: [f64; 4],
+        sticks: (PyReadonlyArray1<f64>, PyReadonlyArray1<f64>),
         psi: PyReadonlyArray1<f64>,
-        q: PyReadonlyArray2<f64>,
-        q_dot: PyReadonlyArray2<f64>,
-        lambda_far: PyReadonlyArray2<f64>,
-        start: PyReadonlyArray2<f64>,
+        motion: (PyReadonlyArray2<f64>, PyReadonlyArray2<f64>),
+        maps: (PyReadonlyArray2<f64>, PyReadonlyArray2<f64>),
     ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>, f64, usize)> {
         let options = crate::options::wake_options(wake_options)?;
-        let y = y.as_slice()?;
-        let hub = self.inner.hub_motion(0, y, &vec![0.0; y.len()]);
-        let (q, q_dot) = (q.as_array(), q_dot.as_array());
-        let instants: Vec<BladeInstant> = psi
-            .as_slice()?
-            .iter()
-            .enumerate()
-            .map(|(i, &psi)| BladeInstant {
-                psi,
-                modal: motion(q.row(i).iter().copied(), q_dot.row(i).iter().copied()),
-                control: self.inner.main().blade_pitch(stick, stick_rate, psi).into(),
-            })
-            .collect();
-        let n = lambda_far.as_array().ncols();
-        let far: Vec<f64> = lambda_far.as_array().iter().copied().collect();
-        let start: Vec<f64> = start.as_array().iter().copied().collect();
+        let (hub, psi) = (self.hub_at(y.as_slice()?)?, psi.as_slice()?);
+        let rotor = self.inner.main();
+        let (m, n) = (psi.len(), rotor.blade.stations.len());
+        let (stick, rate) = (sticks.0.as_slice()?, sticks.1.as_slice()?);
+        let mut instants = Vec::with_capacity(m);
+        for (&psi, modal) in psi.iter().zip(self.motions((&motion.0, &motion.1), m)?) {
+            instants.push(BladeInstant { psi, modal, control: self.pitch(stick, rate, psi)? });
+        }
+        let (far, start) = (map("lambda_far", &maps.0, m, n)?, map("start", &maps.1, m, n)?);
         let all = py
-            .detach(|| {
-                self.inner.main().circulations(self.inner.air, &options, &hub, &instants, &far, &start)
-            })
+            .detach(|| rotor.circulations(self.inner.air, &options, &hub, &instants, &far, &start))
             .map_err(crate::wake::py_error)?;
-        let shape = |v| Array::from_shape_vec((instants.len(), n), v).map_err(invalid);
-        let (gamma, inflow) = (shape(all.gamma)?, shape(all.inflow)?);
+        let shape = |columns, v| Array::from_shape_vec((m, columns), v).map_err(invalid);
+        let (gamma, inflow) = (shape(n, all.gamma)?, shape(rotor.inflow_width(), all.inflow)?);
         Ok((gamma.into_pyarray(py), inflow.into_pyarray(py), all.residual, all.followed))
     }
 
-    /// Circulation [m2/s] of one blade's sections and its slope by inflow, for inflow (n_stations,).
-    #[allow(clippy::too_many_arguments, clippy::type_complexity, reason = "the motion of a blade")]
+    /// Circulation [m2/s] of one blade's sections and its slope by inflow, for inflow (n_stations,) and a hub in motion: velocity
+    /// [m/s], rates [rad/s]; `blade`: azimuth, modal coordinates and rates.
+    #[allow(clippy::type_complexity, reason = "arrays")]
     fn section_circulation<'py>(
         &self,
         py: Python<'py>,
-        hub_velocity: [f64; 3],
-        hub_rates: [f64; 3],
-        stick: [f64; 4],
-        psi: f64,
-        q: PyReadonlyArray1<f64>,
-        q_dot: PyReadonlyArray1<f64>,
+        hub: ([f64; 3], [f64; 3]),
+        stick: PyReadonlyArray1<f64>,
+        blade: (f64, PyReadonlyArray1<f64>, PyReadonlyArray1<f64>),
         inflow: PyReadonlyArray1<f64>,
     ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>)> {
-        let hub = wakeflight::blade::loads::HubMotion {
-            velocity: hub_vector(hub_velocity),
-            acceleration_less_gravity: Vec3::zero(),
-            omega: hub_vector(hub_rates),
-            omega_dot: Vec3::zero(),
-        };
-        let blade = BladeInstant {
-            psi,
-            modal: motion(q.as_slice()?.iter().copied(), q_dot.as_slice()?.iter().copied()),
-            control: self.inner.main().blade_pitch(stick, [0.0; 4], psi).into(),
-        };
-        let lambda = inflow.as_slice()?;
+        let (rotor, stick) = (self.inner.main(), stick.as_slice()?);
+        let zero = Vec3::zero();
+        let (velocity, omega) = (Vec3::from_array(hub.0), Vec3::from_array(hub.1));
+        let hub = HubMotion { velocity, acceleration_less_gravity: zero, omega, omega_dot: zero };
+        let (psi, q, q_dot) = (blade.0, blade.1.as_slice()?, blade.2.as_slice()?);
+        let n = rotor.blade.n_modes;
+        let (q, q_dot) = (sized("q", q, n)?, sized("q_dot", q_dot, n)?);
+        let modal = motion(q.iter().copied(), q_dot.iter().copied());
+        let blade = BladeInstant { psi, modal, control: self.pitch(stick, &vec![0.0; stick.len()], psi)? };
+        let lambda = sized("inflow", inflow.as_slice()?, rotor.blade.stations.len())?;
         let (mut gamma, mut slope) = (vec![0.0; lambda.len()], vec![0.0; lambda.len()]);
-        self.inner.main().section_circulation(self.inner.air, &hub, &blade, lambda, &mut gamma, &mut slope);
+        rotor.section_circulation(self.inner.air, &hub, &blade, lambda, &mut gamma, &mut slope);
         Ok((gamma.into_pyarray(py), slope.into_pyarray(py)))
+    }
+
+    /// Loads of one blade on the hub and the air at its stations, for azimuths `psi` (m,) of the periodic motion `x` and total
+    /// inflow (m, n_stations), None for the dynamic inflow in `x`: a dictionary of arrays, in the axes of the rotor's sense.
+    fn passages<'py>(
+        &self,
+        py: Python<'py>,
+        problem: &PyTrimProblem,
+        x: PyReadonlyArray1<f64>,
+        psi: PyReadonlyArray1<f64>,
+        inflow: Option<PyReadonlyArray2<f64>>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let trim = Trim::new(&self.inner, &problem.0).map_err(invalid)?;
+        let x = trim.checked(x.as_slice()?).map_err(invalid)?;
+        let (rotor, psi) = (self.inner.main(), psi.as_slice()?);
+        let n = rotor.blade.stations.len();
+        let width = inflow.as_ref().map_or(n, |map| map.as_array().ncols());
+        if width != n && width != rotor.inflow_width() {
+            return Err(invalid(format!("inflow must have the shape ({}, {n})", psi.len())));
+        }
+        let held = inflow.map(|given| map("inflow", &given, psi.len(), width)).transpose()?;
+        if held.is_none() && !problem.0.is_dynamic() {
+            return Err(invalid("inflow is needed: the problem has none of its own"));
+        }
+        let head = trim.layout.head(x);
+        let hub = self.inner.carried(&head).hub;
+        let passages = psi.iter().enumerate().map(|(row, &azimuth)| {
+            let given = match &held {
+                Some(map) => rotor.held_inflow(&map[row * width..(row + 1) * width]),
+                None => BladeInflow::Disk(head.inflow),
+            };
+            let control = rotor.blade_pitch(head.controls, [0.0; 4], azimuth).into();
+            (BladeInstant { psi: azimuth, modal: trim.motion(x, azimuth), control }, given)
+        });
+        let found = rotor.passages(self.inner.air, &hub, passages);
+        let d = PyDict::new(py);
+        let shape = |m, v| Array::from_shape_vec((psi.len(), m), v).map_err(invalid);
+        for (name, values) in ["force", "moment", "aero_force", "aero_moment"].into_iter().zip(found.loads) {
+            d.set_item(name, shape(3, values)?.into_pyarray(py))?;
+        }
+        for (name, values) in FIELDS.into_iter().zip(found.fields) {
+            d.set_item(name, shape(n, values)?.into_pyarray(py))?;
+        }
+        Ok(d)
     }
 
     /// What a run records at an instant, as a dictionary of floats and arrays.
@@ -392,6 +415,8 @@ impl PyAircraft {
         d.set_item("moment", all.moment)?;
         d.set_item("hub_force", o.hub_force)?;
         d.set_item("hub_moment", o.hub_moment)?;
+        d.set_item("aero_force", o.aero_force)?;
+        d.set_item("aero_moment", o.aero_moment)?;
         d.set_item("ct", o.ct)?;
         d.set_item("beta_1c", o.beta_1c)?;
         d.set_item("beta_1s", o.beta_1s)?;
@@ -420,7 +445,6 @@ impl PyAircraft {
 
 /// Registers the classes of this file.
 pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
-    m.add_class::<PyAircraft>()?;
-    m.add_class::<PyInputs>()?;
-    m.add_class::<PyTrimProblem>()
+    m.add_class::<PySystem>()?;
+    m.add_class::<PyInputs>()
 }
