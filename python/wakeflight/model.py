@@ -12,11 +12,10 @@ import numpy as np
 
 from . import _core
 from .aircraft import Aircraft
-from .condition import FlightCondition
+from .condition import FlightCondition, Target
 from .inflow import InflowModel, RelaxationWake
 from .monitors import Bounds, bounds
 from .results import disk
-from .trim_target import Target
 from .units import STANDARD_GRAVITY
 
 ROLL, PITCH, YAW = 4, 5, 6
