@@ -12,11 +12,10 @@ import numpy as np
 
 from . import _core
 from .aircraft import Aircraft
-from .condition import FlightCondition
+from .condition import FlightCondition, Target
 from .inflow import InflowModel, RelaxationWake
 from .monitors import Bounds, bounds
 from .results import disk
-from .trim_target import Target
 from .units import STANDARD_GRAVITY
 
 ROLL, PITCH, YAW = 4, 5, 6
@@ -145,23 +144,26 @@ class CompiledRotor:
         return disk.first_harmonics(inflow, psi, self.stations / self.rotor["radius"], self.area_weights)
 
 
-def setting(air: tuple[float, float], inflow: Any, discretisation: Any, gravity: float = STANDARD_GRAVITY) -> dict[str, Any]:
-    """What the core is built for besides the data: density [kg/m3] and speed of sound [m/s], weight, inflow, discretisation."""
-    d = discretisation
-    return {
+def resolution(discretisation: Any, n_stations: int) -> dict[str, Any]:
+    """How finely blades are resolved, as the core reads it."""
+    names = ("n_elements", "n_modes", "n_gauss", "reference_pitch")
+    return {**{name: getattr(discretisation, name) for name in names}, "n_stations": n_stations}
+
+
+def setting(
+    air: tuple[float, float], free_wake: bool, resolved: dict[str, Any], gravity: float = STANDARD_GRAVITY, **other: Any
+) -> str:
+    """What the core is built for besides the data (JSON): density [kg/m3] and speed of sound [m/s], gravity [m/s2], whether a free
+    wake gives the inflow, discretisation; other: lift of thin sections, flow of mass that dynamic inflow takes."""
+    whole = {
         "air": {"density": air[0], "speed_of_sound": air[1]},
         "gravity": gravity,
-        "free_wake": not inflow.is_dynamic,
-        "discretisation": {
-            "n_elements": d.n_elements,
-            "n_modes": d.n_modes,
-            "n_gauss": d.n_gauss,
-            "n_stations": inflow.n_stations,
-            "reference_pitch": float(d.reference_pitch),
-        },
+        "free_wake": free_wake,
+        "discretisation": resolved,
         "lift": None,
         "mass_flow": "momentum",
     }
+    return json.dumps(whole | other)
 
 
 def flight_regime(aircraft: Aircraft, condition: FlightCondition) -> str:
@@ -196,8 +198,9 @@ class Model(CompiledRotor):
         data = aircraft.core_data(condition)
         inflow = inflow.resolved(flight_regime(aircraft, condition))
         inflow.step(aircraft)
-        chosen = setting((density, speed_of_sound), inflow, aircraft.discretisation)
-        core = _core.System.aircraft(json.dumps(data), json.dumps(chosen))
+        resolved = resolution(aircraft.discretisation, inflow.n_stations)
+        chosen = setting((density, speed_of_sound), not inflow.is_dynamic, resolved)
+        core = _core.System.aircraft(json.dumps(data), chosen)
         return cls(aircraft, condition, inflow, core, data, density, speed_of_sound, target)
 
     @property

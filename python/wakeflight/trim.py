@@ -12,7 +12,7 @@ import numpy as np
 
 from . import _core
 from .aircraft import Aircraft
-from .condition import FlightCondition, condition_for
+from .condition import FlightCondition, condition_for, target
 from .errors import NumericalFailure
 from .inflow import DynamicInflow, InflowModel, inflow_model, trim_model
 from .model import Model
@@ -21,7 +21,6 @@ from .progress import Progress, Silent
 from .trim_equations import INCH, dynamic_map, residual_norms, without_inflow
 from .trim_limits import windmill
 from .trim_solve import solve_condition
-from .trim_target import target
 from .trim_wake import CONTROL_TOLERANCE, on_marching, on_relaxation
 from .units import STANDARD_GRAVITY
 from .views import html_table

@@ -209,13 +209,10 @@ def test_another_rotors_options_are_refused(uh60a):
         return model.core.solve_circulation(
             json.dumps(options),
             np.zeros(len(model.core.state_names())),
-            [0.1] * 4,
-            [0.0] * 4,
+            (np.full(4, 0.1), np.zeros(4)),
             np.zeros(1),
-            motion,
-            motion,
-            far,
-            far,
+            (motion, motion),
+            (far, far),
         )
 
     for name, value in (("radius", 7.0), ("n_blades", 5), ("hinge_offset", 0.1), ("omega", 30.0), ("root_cutout", 1.0)):

@@ -9,6 +9,7 @@ import wakeflight as wf
 from wakeflight import _core
 from wakeflight.flight import Sticks
 from wakeflight.integrators import FixedIntegrator, absolute_tolerances, consistent_rate
+from wakeflight.model import resolution, setting
 from wakeflight.simulation import coupling_inputs
 
 
@@ -19,9 +20,7 @@ def smooth(baseline_dynamic):
     data = json.loads(json.dumps(model.data))
     data["rotor"]["lag_damper"] = None
     d = model.aircraft.discretisation
-    core = _core.Aircraft(
-        json.dumps(data), 1.0, 330.0, 9.81, True, d.n_elements, d.n_modes, d.n_gauss, 20, d.reference_pitch
-    )
+    core = _core.System.aircraft(json.dumps(data), setting((1.0, 330.0), True, resolution(d, 20), 9.81))
     y = np.delete(baseline_dynamic.state(), slice(*model.layout["inflow"]))
     inputs = _core.Inputs(baseline_dynamic.stick_si, np.zeros(4), 0.0, None, 0.0, 0.0, vacuum=True)
     return core, y, inputs, model.omega, np.delete(absolute_tolerances(model), slice(*model.layout["inflow"]))

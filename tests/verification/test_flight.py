@@ -46,12 +46,12 @@ def test_a_convergence_phase_reproduces_the_wake_standing_alone_bit_for_bit(base
         loop.frozen_step(start.problem, start.x)
         rows = loop.rows(step)
         psi = 2 * np.pi * np.asarray(rows) / loop.n
-        held = (y, start.x[:4], np.zeros(4), psi, q[rows], q_dot[rows])
-        gamma = model.core.solve_circulation(model.wake_options, *held, far, gamma)[0]
+        held = (y, (start.x[:4], np.zeros(4)), psi, (q[rows], q_dot[rows]))
+        gamma = model.core.solve_circulation(model.wake_options, *held, (far, gamma))[0]
         flap, lead = model.core.equivalent_angles(q[rows])
         alone.step(*model.core.hub(y), np.column_stack([psi, flap, lead]), gamma)
         far = alone.inflow_far()
-        gamma = model.core.solve_circulation(model.wake_options, *held, far, gamma)[0]
+        gamma = model.core.solve_circulation(model.wake_options, *held, (far, gamma))[0]
         assert np.array_equal(loop.position(), alone.position())
         assert np.array_equal(loop.circulation, gamma)
 

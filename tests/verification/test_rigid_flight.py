@@ -8,6 +8,7 @@ import pytest
 import wakeflight as wf
 from wakeflight import _core
 from wakeflight.integrators import FixedIntegrator, absolute_tolerances
+from wakeflight.model import resolution, setting
 
 
 @pytest.fixture(scope="module")
@@ -31,9 +32,7 @@ def test_the_explicit_step_has_order_five(rigid):
     model, d = rigid.model, rigid.aircraft.discretisation
     data = json.loads(json.dumps(model.data))
     data["rotor"]["lag_damper"] = None
-    core = _core.Aircraft(
-        json.dumps(data), 1.0, 330.0, 9.81, True, d.n_elements, d.n_modes, d.n_gauss, 20, d.reference_pitch
-    )
+    core = _core.System.aircraft(json.dumps(data), setting((1.0, 330.0), True, resolution(d, 20), 9.81))
     inflow = slice(*model.layout["inflow"])
     y, atol = np.delete(rigid.state(), inflow), np.delete(absolute_tolerances(model), inflow)
     inputs = _core.Inputs(rigid.stick_si, np.zeros(4), 0.0, None, 0.0, 0.0, vacuum=True)

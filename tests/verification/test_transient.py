@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 
 import wakeflight as wf
+from wakeflight import _core
+from wakeflight.integrators import FixedIntegrator
 from wakeflight.plotting import tunnel as drawing
 from wakeflight.results import load, save
 from wakeflight.trim_equations import resample
@@ -29,15 +31,17 @@ def test_blades_marched_in_time_find_the_periodic_motion_of_the_harmonic_balance
     n = stand.model.steps_per_revolution
     mid = resample(stand.solution.inflow_map, 2 * n)[1::2]
     y = core.trim_state(problem, x, 0.0)[0]
-    q, q_dot = core.trim_motion(problem, x, n)
-    motion, flap = (q[:1], q_dot[:1], np.zeros_like(q[:1])), []
-    step = 2 * np.pi / stand.model.omega / n
+    step, apart = 2 * np.pi / stand.model.omega / n, n // stand.model.n_blades * np.arange(stand.model.n_blades)
+    solver, flap = FixedIntegrator(stand.model), []
     for k in range(4 * n):
-        psi = np.array([2 * np.pi * (k % n) / n])
-        row = mid[k % n : k % n + 1]
-        motion = tuple(core.advance_blades(y, psi, motion, list(x[:3]), [0.0] * 3, row, step))
-        flap.append(core.equivalent_angles(np.ascontiguousarray(motion[0]))[0][0])
-    balance = core.equivalent_angles(q)[0]
+        inputs = _core.Inputs([*x[:3], 0.0], np.zeros(4), k * step, mid[(k + apart) % n], 0.0, 0.0)
+        rate = solver.consistent(k * step, y, inputs)
+        if k == 0:
+            solver.start(0.0, y, rate)
+        solver.advance_to((k + 1) * step, inputs)
+        y = solver.state
+        flap.append(core.equivalent_angles(stand.model.modal(y)[0])[0][0])
+    balance = core.equivalent_angles(core.trim_motion(problem, x, n)[0])[0]
     difference = np.array(flap[-n:]) - np.roll(balance, -1)
     assert np.ptp(balance) > np.radians(5.0)
     assert np.abs(difference).max() < np.radians(0.005)

@@ -10,6 +10,7 @@ import wakeflight as wf
 from wakeflight import _core
 from wakeflight.plotting import style
 from wakeflight.validate import Check, Outcome
+from wakeflight.model import setting
 
 N_ELEMENTS, N_GAUSS, TIP = 8, 8, 1e-5
 DATA = wf.load_aircraft("bo105").core_data()
@@ -48,7 +49,8 @@ class Cantilever:
         data["mass"]["gross_mass"] = 1e6
         for part in ("fuselage", "stabilator", "stabilator_schedule", "fin", "tail_rotor", "interference"):
             data[part] = None
-        return _core.Aircraft(json.dumps(data), 1.0, 340.0, force, True, N_ELEMENTS, self.n_modes, N_GAUSS, 2, 0.0)
+        fine = {"n_elements": N_ELEMENTS, "n_modes": self.n_modes, "n_gauss": N_GAUSS, "n_stations": 2, "reference_pitch": 0.0}
+        return _core.System.aircraft(json.dumps(data), setting((1.0, 340.0), True, fine, force))
 
     def equilibrium(self, force, q):
         """Modal coordinates at which weight and bending balance, by Newton from `q`."""

@@ -12,6 +12,7 @@ from wakeflight.integrators import IdaIntegrator, consistent_rate
 from wakeflight.plotting import style
 from wakeflight.recorder import euler_angles
 from wakeflight.validate import Check, Outcome
+from wakeflight.model import setting
 
 FOOT, SLUG_FT2, MASS = 0.3048, 1.3558179483314004, 7257.5
 
@@ -26,7 +27,8 @@ def body(inertia, gravity):
     data["mass"] |= {"gross_mass": MASS, "inertia": [inertia[k] * SLUG_FT2 for k in ("Ix", "Iy", "Iz", "Ixz")]}
     for part in ("fuselage", "stabilator", "stabilator_schedule", "fin", "tail_rotor", "interference"):
         data[part] = None
-    core = _core.Aircraft(json.dumps(data), 1.0, 340.0, gravity, True, 4, 2, 8, 2, 0.3)
+    coarse = {"n_elements": 4, "n_modes": 2, "n_gauss": 8, "n_stations": 2, "reference_pitch": 0.3}
+    core = _core.System.aircraft(json.dumps(data), setting((1.0, 340.0), True, coarse, gravity))
     rotor = core.rotor()
     room = {"linearised": lambda: _core.Linearised(core)}
     return SimpleNamespace(core=core, layout=core.layout(), rotor=rotor, omega=rotor["omega"], **room)

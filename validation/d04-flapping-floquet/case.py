@@ -11,6 +11,7 @@ import wakeflight as wf
 from wakeflight import _core
 from wakeflight.plotting import style
 from wakeflight.validate import Check, Outcome
+from wakeflight.model import setting
 
 SMALL, SLOPE, CHORD, STATIONS, AZIMUTHS = 1e-4, 5.7, 1e-7, 1000, 24
 INFLOW, PITCH = 0.03, np.radians([8.0, 1.0, -3.0])
@@ -36,7 +37,8 @@ class FlapEquation:
         for part in ("fuselage", "stabilator", "stabilator_schedule", "fin", "tail_rotor", "interference"):
             data[part] = None
         density = gamma / (3.0 * SLOPE * CHORD)  # inertia 1/3 of a blade of 1 kg/m and 1 m
-        self.core = _core.Aircraft(json.dumps(data), density, 1e9, 0.0, True, 1, 2, 8, STATIONS, 0.0)
+        fine = {"n_elements": 1, "n_modes": 2, "n_gauss": 8, "n_stations": STATIONS, "reference_pitch": 0.0}
+        self.core = _core.System.aircraft(json.dumps(data), setting((density, 1e9), True, fine, 0.0))
         self.layout, rotor = self.core.layout(), self.core.rotor()
         self.flap, self.per_coordinate = rotor["flap_mode"], rotor["flap_per_coordinate"]
         self.stick = SMALL * np.array([PITCH[1], PITCH[2], PITCH[0], 0.0])

@@ -12,7 +12,7 @@ import numpy as np
 from .. import _core
 from ..aircraft import Rotor
 from ..inflow import STAND_MODELS, AnnularInflow, InflowModel, inflow_model
-from ..model import CompiledRotor, Question, setting
+from ..model import CompiledRotor, Question, resolution, setting
 from ..trim_equations import trim_problem
 from .condition import StandCondition
 
@@ -66,10 +66,12 @@ class StandModel(CompiledRotor):
         """
         inflow = inflow.resolved(condition.regime(rotor.omega * rotor.radius))
         inflow.step(rotor)
-        chosen = setting((condition.density, condition.speed_of_sound), inflow, rotor.discretisation)
-        chosen |= {"lift": LIFT[blade_model], "mass_flow": "windmill_brake" if windmill else "momentum"}
+        air = (condition.density, condition.speed_of_sound)
+        resolved = resolution(rotor.discretisation, inflow.n_stations)
+        mass_flow = "windmill_brake" if windmill else "momentum"
+        chosen = setting(air, not inflow.is_dynamic, resolved, lift=LIFT[blade_model], mass_flow=mass_flow)
         motion = (list(condition.velocity), list(condition.rates))
-        core = _core.System.stand(json.dumps(rotor.data), json.dumps(chosen), motion, list(condition.higher))
+        core = _core.System.stand(json.dumps(rotor.data), chosen, motion, list(condition.higher))
         return cls(rotor, condition, inflow, core, n_harmonics, blade_model, windmill)
 
     @property
