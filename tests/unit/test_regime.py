@@ -55,7 +55,12 @@ def test_only_what_was_not_given_is_left_to_the_regime(kind, name):
 def test_turns_are_not_repeated_where_a_cylinder_closes_the_wake_or_free_sheets_end_it(given):
     closed = wf.RelaxationWake(**given).resolved("hover")
     assert (closed.turns, closed.far_wake_turns) == (5.0, 0)
-    assert wf.RelaxationWake(**given, far_wake_turns=2).resolved("hover").far_wake_turns == 2
+
+
+def test_turns_that_were_given_are_repeated_behind_free_sheets_and_refused_before_a_cylinder():
+    assert wf.RelaxationWake(trailers="full-span", far_wake_turns=2).resolved("hover").far_wake_turns == 2
+    with pytest.raises(wf.InputError, match="far_wake = 'cylinder': for tip vortices"):
+        wf.RelaxationWake(far_wake="cylinder", far_wake_turns=2)
 
 
 def test_an_option_left_open_is_no_number_for_the_core(uh60a):
