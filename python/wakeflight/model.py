@@ -153,8 +153,11 @@ def resolution(discretisation: Any, n_stations: int) -> dict[str, Any]:
 def setting(
     air: tuple[float, float], free_wake: bool, resolved: dict[str, Any], gravity: float = STANDARD_GRAVITY, **other: Any
 ) -> str:
-    """What the core is built for besides the data (JSON): density [kg/m3] and speed of sound [m/s], gravity [m/s2], whether a free
-    wake gives the inflow, discretisation; other: lift of thin sections, flow of mass that dynamic inflow takes."""
+    """What the core is built for besides the data, JSON.
+
+    Density [kg/m3] and speed of sound [m/s], gravity [m/s2], whether a free wake gives the inflow, discretisation; other: lift of
+    thin sections, flow of mass that dynamic inflow takes.
+    """
     whole = {
         "air": {"density": air[0], "speed_of_sound": air[1]},
         "gravity": gravity,

@@ -8,9 +8,9 @@ import numpy as np
 
 import wakeflight as wf
 from wakeflight import _core
+from wakeflight.model import setting
 from wakeflight.plotting import style
 from wakeflight.validate import Check, Outcome
-from wakeflight.model import setting
 
 N_ELEMENTS, N_GAUSS, TIP = 8, 8, 1e-5
 DATA = wf.load_aircraft("bo105").core_data()
@@ -49,7 +49,13 @@ class Cantilever:
         data["mass"]["gross_mass"] = 1e6
         for part in ("fuselage", "stabilator", "stabilator_schedule", "fin", "tail_rotor", "interference"):
             data[part] = None
-        fine = {"n_elements": N_ELEMENTS, "n_modes": self.n_modes, "n_gauss": N_GAUSS, "n_stations": 2, "reference_pitch": 0.0}
+        fine = {
+            "n_elements": N_ELEMENTS,
+            "n_modes": self.n_modes,
+            "n_gauss": N_GAUSS,
+            "n_stations": 2,
+            "reference_pitch": 0.0,
+        }
         return _core.System.aircraft(json.dumps(data), setting((1.0, 340.0), True, fine, force))
 
     def equilibrium(self, force, q):

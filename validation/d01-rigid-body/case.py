@@ -9,10 +9,10 @@ import numpy as np
 import wakeflight as wf
 from wakeflight import _core
 from wakeflight.integrators import IdaIntegrator, consistent_rate
+from wakeflight.model import setting
 from wakeflight.plotting import style
 from wakeflight.recorder import euler_angles
 from wakeflight.validate import Check, Outcome
-from wakeflight.model import setting
 
 FOOT, SLUG_FT2, MASS = 0.3048, 1.3558179483314004, 7257.5
 

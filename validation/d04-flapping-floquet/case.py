@@ -9,9 +9,9 @@ from scipy.integrate import solve_ivp
 
 import wakeflight as wf
 from wakeflight import _core
+from wakeflight.model import setting
 from wakeflight.plotting import style
 from wakeflight.validate import Check, Outcome
-from wakeflight.model import setting
 
 SMALL, SLOPE, CHORD, STATIONS, AZIMUTHS = 1e-4, 5.7, 1e-7, 1000, 24
 INFLOW, PITCH = 0.03, np.radians([8.0, 1.0, -3.0])

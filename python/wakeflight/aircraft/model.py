@@ -132,7 +132,9 @@ class Aircraft:
 
     def mirrored(self) -> Aircraft:
         """Its mirror image: the rotor turns the other way; lateral stick and pedal count from the other stop."""
-        return Aircraft(self._spec.model_copy(update={"mirrored": not self._spec.mirrored}), self._path, self._loading_name)
+        return Aircraft(
+            self._spec.model_copy(update={"mirrored": not self._spec.mirrored}), self._path, self._loading_name
+        )
 
     @property
     def path(self) -> Path:
