@@ -44,7 +44,12 @@ pub struct RelaxationExchange {
 impl RelaxationExchange {
     /// From the wake of a trim and the periodic motion of its blades (n_azimuths,), renewed as its `own` options say; counts begin
     /// anew.
-    pub fn new(mut steady: SteadyWake, rotor: &Rotor, renewal: Renewal, motion: &[ModalMotion<f64>]) -> Self {
+    pub fn new(
+        mut steady: SteadyWake,
+        rotor: &Rotor,
+        own: &RelaxationOptions,
+        motion: &[ModalMotion<f64>],
+    ) -> Self {
         (steady.sweeps, steady.followed) = (0, 0);
         Self {
             steady,
