@@ -60,11 +60,17 @@ class Exchange:
         Nodes (n_blades, n_ages, 3) [m], hub axes, their circulation (n_blades, n_ages) [m2/s], core radii of the segments
         (n_blades, n_ages - 1) [m].
         """
-        return self.core.tips(step)
+        tips = self.core.tips(step)
+        return None if tips is None else (self._in_hub_axes(tips[0]), *tips[1:])
 
     def lattice(self, step: int) -> tuple[np.ndarray, np.ndarray] | None:
         """Every trailer, root to tip: positions (n_blades, n_trailers, n_ages, 3) [m], hub axes, and circulation [m2/s]."""
-        return self.core.lattice(step)
+        lattice = self.core.lattice(step)
+        return None if lattice is None else (self._in_hub_axes(lattice[0]), lattice[1])
+
+    def _in_hub_axes(self, position: np.ndarray) -> np.ndarray:
+        """Of the mirror image of a clockwise rotor (..., 3)."""
+        return position if self.model.hand > 0.0 else position * np.array([1.0, self.model.hand, 1.0])
 
     @property
     def monitors(self) -> dict[str, float]:

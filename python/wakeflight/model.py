@@ -66,6 +66,11 @@ class CompiledRotor:
         return self.rotor["n_blades"]
 
     @property
+    def hand(self) -> float:
+        """1 of rotors whose results are in hub axes as they are; -1 where the core has them in those of the mirror image."""
+        return 1.0
+
+    @property
     def flexible(self) -> bool:
         """Whether blades bend: the rates of rigid ones are had in closed form."""
         return not self.rotor["rigid"]
@@ -205,6 +210,11 @@ class Model(CompiledRotor):
         chosen = setting((density, speed_of_sound), not inflow.is_dynamic, resolved)
         core = _core.System.aircraft(json.dumps(data), chosen)
         return cls(aircraft, condition, inflow, core, data, density, speed_of_sound, target)
+
+    @property
+    def hand(self) -> float:
+        """-1 of a clockwise rotor, which the core computes as its mirror image."""
+        return self.rotor["hand"]
 
     @property
     def question(self) -> Question:

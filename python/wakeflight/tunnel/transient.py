@@ -159,7 +159,9 @@ def _record(
     kept: Recorder, stand: Tunnel, seen: dict[str, Any], t: float, collective: float, coordinates: np.ndarray
 ) -> None:
     model = stand.model
-    thrust, torque = seen["aero_force"][2], -seen["aero_moment"][2] * model.rotor["hand"]
+    # on the stand y points to the advancing side, whichever way the rotor turns
+    hand = model.rotor["hand"]
+    thrust, torque = seen["aero_force"][2], -seen["aero_moment"][2] * hand
     flap, lead = model.core.equivalent_angles(np.ascontiguousarray(coordinates))
     psi = np.asarray(seen["azimuth"])
     _check(stand, seen["inflow"], seen["mach"], psi, collective)
@@ -172,8 +174,8 @@ def _record(
         cq=torque / (scale * stand.radius),
         thrust=thrust,
         torque=torque,
-        hub_force=seen["hub_force"],
-        hub_moment=seen["hub_moment"],
+        hub_force=np.array(seen["hub_force"]) * [1.0, hand, 1.0],
+        hub_moment=np.array(seen["hub_moment"]) * [hand, 1.0, hand],
         flap=flap,
         lead=lead,
         beta_0=np.mean(flap),
