@@ -1,6 +1,7 @@
 //! Choice of the instruction set when the program runs.
 
-use super::roots::{Exact, Roots};
+use super::lanes::Roots;
+use super::roots::Exact;
 use pulp::{Scalar, Simd, WithSimd};
 
 /// Lanes the sums run in.

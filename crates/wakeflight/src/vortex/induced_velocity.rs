@@ -134,8 +134,10 @@ pub(super) fn add(
     for_core(core, core_distance, Direct { groups: &mut groups, instruction_set });
 }
 
-/// Adds the sum over the sources of every group at its points.
-pub(super) fn add_groups(groups: &mut [Group<'_>], core: Core, core_distance: CoreDistance) {
+/// Adds to every group's velocity what its sources induce at its points, directly; all groups in one pass over the threads.
+///
+/// Same bits for any number of threads, and for any points beside a point.
+pub fn add_groups_velocity(groups: &mut [Group<'_>], core: Core, core_distance: CoreDistance) {
     for_core(core, core_distance, Direct { groups, instruction_set: InstructionSet::widest() });
 }
 

@@ -4,9 +4,8 @@
 //! caller, and one that is compiled on its own costs ten times the arithmetic.
 
 use super::dispatch::OverLanes;
-use super::lanes::{LEAST_SQUARE, Lanes};
+use super::lanes::{LEAST_SQUARE, Lanes, Roots};
 use super::models::{Model, Seen};
-use super::roots::Roots;
 use super::sources::Part;
 use super::strands::{Piece, Strand};
 use pulp::Simd;

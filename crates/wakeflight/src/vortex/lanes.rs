@@ -1,10 +1,17 @@
 //! Arithmetic on vectors of numbers, one for each point, with the roots of choice.
 
-use super::roots::Roots;
 use pulp::Simd;
 
 /// Keeps roots and quotients finite where everything vanishes; reached below lengths of 1e-18 m only.
 pub(super) const LEAST_SQUARE: f64 = 1e-300;
+
+/// Square roots of positive numbers.
+pub(super) trait Roots<S: Simd>: Copy {
+    /// Square root.
+    fn sqrt(self, on: Lanes<S, Self>, x: S::f64s) -> S::f64s;
+    /// One over the square root.
+    fn reciprocal_sqrt(self, on: Lanes<S, Self>, x: S::f64s) -> S::f64s;
+}
 
 /// Operations on vectors of `S`, with roots by `R`.
 #[derive(Clone, Copy)]

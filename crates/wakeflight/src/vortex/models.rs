@@ -1,8 +1,7 @@
 //! Core models as denominators of the segment law, several points at a time.
 
 use super::core::{Core, CoreDistance, LAMB_OSEEN_ALPHA};
-use super::lanes::{LEAST_SQUARE, Lanes};
-use super::roots::Roots;
+use super::lanes::{LEAST_SQUARE, Lanes, Roots};
 use pulp::Simd;
 
 /// What a core sees of a segment, for several points; r_c: core radius, L: |c| over the core distance.

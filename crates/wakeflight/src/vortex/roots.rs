@@ -1,15 +1,7 @@
 //! Square roots and their reciprocals, by the fastest means that is exact to rounding.
 
-use super::lanes::Lanes;
+use super::lanes::{Lanes, Roots};
 use pulp::Simd;
-
-/// Square roots of positive numbers.
-pub(super) trait Roots<S: Simd>: Copy {
-    /// Square root.
-    fn sqrt(self, on: Lanes<S, Self>, x: S::f64s) -> S::f64s;
-    /// One over the square root.
-    fn reciprocal_sqrt(self, on: Lanes<S, Self>, x: S::f64s) -> S::f64s;
-}
 
 /// The instructions for root and division.
 #[derive(Clone, Copy)]

@@ -1,7 +1,5 @@
 //! Segments packed once for several sums, whole or in parts.
 
-use super::core::{Core, CoreDistance};
-use super::induced_velocity::add_groups;
 use super::strands::{Piece, Strand, Strands};
 
 /// Straight segments in the order of the sum; joined ones share their nodes. Room is kept when they are cleared.
@@ -98,11 +96,4 @@ impl Group<'_> {
     pub fn evaluations(&self) -> u64 {
         (self.points.len() * self.sources.iter().map(Part::len).sum::<usize>()) as u64
     }
-}
-
-/// Adds to every group's velocity what its sources induce at its points, directly; all groups in one pass over the threads.
-///
-/// Same bits for any number of threads, and for any points beside a point.
-pub fn add_groups_velocity(groups: &mut [Group<'_>], core: Core, core_distance: CoreDistance) {
-    add_groups(groups, core, core_distance);
 }

@@ -12,7 +12,8 @@ use super::motion::{BladeState, HubMotion};
 use super::near_wake::{trailer_cores, trailers};
 use super::options::WakeOptions;
 use crate::vortex::core::Core;
-use crate::vortex::sources::{Group, Sources, add_groups_velocity};
+use crate::vortex::induced_velocity::add_groups_velocity;
+use crate::vortex::sources::{Group, Sources};
 use std::f64::consts::PI;
 
 /// Velocity along -`up` at the control points per unit circulation of each element, row-major (n, n) [1/m].

@@ -11,8 +11,8 @@ use super::sources::{KINDS, SEEN, WakeSources, push_kind};
 use crate::vortex::core::Core;
 use crate::vortex::curvature::curvature_velocity;
 use crate::vortex::cylinder::VortexCylinder;
-use crate::vortex::induced_velocity::Segments;
-use crate::vortex::sources::{Group, Part, add_groups_velocity};
+use crate::vortex::induced_velocity::{Segments, add_groups_velocity};
+use crate::vortex::sources::{Group, Part};
 use crate::vortex::tree::{Method, add_part_velocity_by};
 use serde::{Deserialize, Serialize};
 

@@ -2,8 +2,7 @@
 
 use super::harmonics::{N_COEFFICIENTS, VELOCITY_DEGREE};
 use crate::vortex::kernel::{Vectors, dot};
-use crate::vortex::lanes::{LEAST_SQUARE, Lanes};
-use crate::vortex::roots::Roots;
+use crate::vortex::lanes::{LEAST_SQUARE, Lanes, Roots};
 use pulp::Simd;
 
 /// Factor of I_(n-2)^m in the recurrence of I_n^m / (2 n - 1)!!, order after order.

@@ -16,9 +16,9 @@ mod sum;
 mod tests;
 
 use super::core::{Core, CoreDistance};
-use super::induced_velocity::{Filaments, Segments};
+use super::induced_velocity::{Filaments, Segments, add_groups_velocity};
 use super::models::for_core;
-use super::sources::{Group, Part, add_groups_velocity};
+use super::sources::{Group, Part};
 use cells::Cells;
 use serde::{Deserialize, Serialize};
 use sum::{Acceptance, Found, TreeSum};
