@@ -131,10 +131,15 @@ def tunnel(
     sections = "weissinger-incompressible" if blade_model == "weissinger" and not prandtl_glauert else blade_model
     simple, wake = _compiled(rotor, condition, model, n_harmonics, sections)
     progress.phase("rotor on the stand", None)
-    if wake is not None and wake.is_annular:
-        found = on_annuli(wake, with_dynamic_inflow(simple), progress)
-    else:
-        found = solution(simple, wake, options, progress)
+    try:
+        if wake is not None and wake.is_annular:
+            found = on_annuli(wake, with_dynamic_inflow(simple), progress)
+        else:
+            found = solution(simple, wake, options, progress)
+    except NumericalFailure as reason:
+        if reason.partial is None:
+            raise
+        raise NumericalFailure(str(reason), partial=Tunnel(reason.partial, time.perf_counter() - started)) from reason
     stand = Tunnel(found, time.perf_counter() - started)
     if stand.failures:
         raise NumericalFailure(f"rotor on the stand: {'; '.join(stand.failures)}", partial=stand)

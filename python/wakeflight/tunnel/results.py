@@ -74,7 +74,7 @@ class Tunnel(Solved):
         """
         from .transient import transient
 
-        return transient(self, collective, duration, progress)
+        return transient(self, self.attributes(), collective, duration, progress)
 
     @cached_property
     def data(self) -> xr.Dataset:

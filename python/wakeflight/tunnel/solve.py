@@ -271,9 +271,7 @@ def on_marching(
 
 
 def _diverged(run: Solution, revolution: int, reason: Exception) -> NumericalFailure:
-    from .results import Tunnel
-
-    partial = Tunnel(run) if run.revolutions else None
+    partial = run if run.revolutions else None
     return NumericalFailure(f"marching wake on the stand, revolution {revolution + 1}: {reason}", partial=partial)
 
 

@@ -16,11 +16,11 @@ from ..monitors import Places, failures, rotor
 from ..progress import Progress, Silent
 from ..units import quantity
 from .condition import within
+from .solved import Solved
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from .results import Tunnel
 
 LONGEST = 1000.0
 """Revolutions that a transient may last at most."""
@@ -88,7 +88,11 @@ class Recorder:
 
 
 def transient(
-    stand: Tunnel, collective: Sequence[Any], duration: Any, progress: Progress | Silent | None = None
+    stand: Solved,
+    attributes: dict[str, Any],
+    collective: Sequence[Any],
+    duration: Any,
+    progress: Progress | Silent | None = None,
 ) -> xr.Dataset:
     """See `Tunnel.transient`."""
     from ..results import assemble_transient
@@ -119,13 +123,13 @@ def transient(
     arrays = {**kept.arrays(), "station": model.stations / stand.radius}
     if "wake" in arrays:
         arrays["age"] = 2 * np.pi / model.steps_per_revolution * np.arange(arrays["wake"].shape[2])
-    data = assemble_transient(arrays, {**stand.attributes(), "failure": failure, "step": step})
+    data = assemble_transient(arrays, {**attributes, "failure": failure, "step": step})
     if failure:
         raise NumericalFailure(failure, partial=data)
     return data
 
 
-def _march(stand: Tunnel, moved: History, step: float, n_steps: int, kept: Recorder) -> Iterator[int]:
+def _march(stand: Solved, moved: History, step: float, n_steps: int, kept: Recorder) -> Iterator[int]:
     """March `n_steps`, recording the start and every step."""
     solution, model = stand.solution, stand.model
     core, x = model.core, solution.x
@@ -156,7 +160,7 @@ def _march(stand: Tunnel, moved: History, step: float, n_steps: int, kept: Recor
 
 
 def _record(
-    kept: Recorder, stand: Tunnel, seen: dict[str, Any], t: float, collective: float, coordinates: np.ndarray
+    kept: Recorder, stand: Solved, seen: dict[str, Any], t: float, collective: float, coordinates: np.ndarray
 ) -> None:
     model = stand.model
     # on the stand y points to the advancing side, whichever way the rotor turns
@@ -184,7 +188,7 @@ def _record(
     )
 
 
-def _check(stand: Tunnel, inflow: np.ndarray, mach: np.ndarray, psi: np.ndarray, collective: float) -> None:
+def _check(stand: Solved, inflow: np.ndarray, mach: np.ndarray, psi: np.ndarray, collective: float) -> None:
     """End where an instant is beyond what the motion of the rotor can give."""
     model, condition = stand.model, stand.model.condition
     velocity = np.asarray(condition.velocity) / model.tip_speed

@@ -1,74 +1,17 @@
-//! One chordwise row of bound vortices with trailers: influence on control points, shared by a blade and a fixed wing.
+//! One chordwise row of bound vortices with trailers, of a blade and of a fixed wing.
 //!
 //! Lifting line: control points on the bound line itself, which induces nothing there. Weissinger: control points at
 //! three quarters of the chord, where the bound line's own induction enters; that of an infinite line, 1/(pi c), is what
 //! a thin section already carries in its 2 pi slope and is taken away.
 
-use super::choices::CoreDistance;
 use super::circulation::solve_circulation;
 use super::error::WakeError;
 use super::geometry::BladeGrid;
+use super::influence::influence;
 use super::motion::{BladeState, HubMotion};
 use super::near_wake::{trailer_cores, trailers};
 use super::options::WakeOptions;
-use crate::vortex::core::Core;
-use crate::vortex::induced_velocity::add_groups_velocity;
-use crate::vortex::sources::{Group, Sources};
 use std::f64::consts::PI;
-
-/// Velocity along -`up` at the control points per unit circulation of each element, row-major (n, n) [1/m].
-///
-/// * `trailers` (n + 1): nodes of each trailer from its edge on the bound line downstream;
-/// * `cores` (n + 1) [m]: radius of the solid core of each trailer, 0 for none;
-/// * `with_bound`: whether the bound elements between the first nodes of the trailers count.
-///
-/// An element of circulation Gamma_j feeds the trailer at its outer edge and takes from that at its inner edge.
-pub fn influence(
-    trailers: &[Vec<[f64; 3]>],
-    cores: &[f64],
-    control: &[[f64; 3]],
-    up: [f64; 3],
-    with_bound: bool,
-) -> Vec<f64> {
-    let n = control.len();
-    let mut sources = Sources::default();
-    let mut marks = vec![sources.mark()];
-    for (nodes, core) in trailers.iter().zip(cores) {
-        for ends in nodes.windows(2) {
-            sources.push(ends[0], ends[1], 1.0, *core);
-        }
-        marks.push(sources.mark());
-    }
-    if with_bound {
-        for j in 0..n {
-            sources.push(trailers[j][0], trailers[j + 1][0], 1.0, 0.0);
-            marks.push(sources.mark());
-        }
-    }
-    let mut matrix = vec![0.0; n * n];
-    let mut velocity = vec![[0.0; 3]; n];
-    for (line, ends) in marks.windows(2).enumerate() {
-        velocity.fill([0.0; 3]);
-        let part = [sources.part(ends[0], ends[1])];
-        let mut groups = [Group { points: control, sources: &part, velocity: &mut velocity }];
-        add_groups_velocity(&mut groups, Core::Rankine, CoreDistance::Line.into());
-        for (row, v) in matrix.chunks_exact_mut(n).zip(&velocity) {
-            let w = -(v[0] * up[0] + v[1] * up[1] + v[2] * up[2]);
-            match line.checked_sub(trailers.len()) {
-                Some(bound) => row[bound] += w,
-                None => {
-                    if line > 0 {
-                        row[line - 1] += w;
-                    }
-                    if line < n {
-                        row[line] -= w;
-                    }
-                }
-            }
-        }
-    }
-    matrix
-}
 
 /// Point between two trailers, `along` [m] from their first nodes.
 fn between(inner: &[[f64; 3]], outer: &[[f64; 3]], along: f64) -> [f64; 3] {

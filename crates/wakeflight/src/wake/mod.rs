@@ -10,6 +10,7 @@ mod far_cylinder;
 pub mod filament;
 pub mod geometry;
 pub mod inboard_sheet;
+pub mod influence;
 pub mod initial;
 pub mod lattice;
 pub mod lifting_surface;

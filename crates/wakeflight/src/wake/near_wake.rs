@@ -2,7 +2,7 @@
 
 use super::error::WakeError;
 use super::geometry::{BladeGrid, BladeLine};
-use super::lifting_surface::influence;
+use super::influence::influence;
 use super::motion::{BladeState, HubMotion};
 use super::options::WakeOptions;
 use super::velocity_field::sum;
