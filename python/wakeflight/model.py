@@ -217,6 +217,11 @@ class Model(CompiledRotor):
         return self.rotor["hand"]
 
     @property
+    def side(self) -> float:
+        """-1 of an aircraft that is the mirror image of its file: its tail rotor pushes the other way."""
+        return -1.0 if self.data.get("mirrored") else 1.0
+
+    @property
     def question(self) -> Question:
         """The condition: balances, lateral convention, and what is met with parts of the path left free."""
         c = self.condition

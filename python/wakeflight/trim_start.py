@@ -40,7 +40,8 @@ def first_guess(model: Model, problem: _core.TrimProblem) -> np.ndarray:
     theta_0 = pitch_75 - np.interp(0.75 * rotor["radius"], twist["x"], twist["y"])
     blowback = mu * (8 / 3 * pitch_75 - 2 * through) / (1 - mu**2 / 2)
     theta_1s = -(FORWARD_FLAPPING + blowback * np.cos(sideslip))
-    theta_1c = np.radians(1.0) - blowback * np.sin(sideslip)
+    # the advancing side is the right one of a counter-clockwise rotor
+    theta_1c = np.radians(1.0) - model.hand * blowback * np.sin(sideslip)
 
     # sticks that give this pitch, the pedal at mid travel
     matrix, offset = np.asarray(data["rigging"]["matrix"]), np.asarray(data["rigging"]["offset"])
@@ -56,7 +57,7 @@ def first_guess(model: Model, problem: _core.TrimProblem) -> np.ndarray:
     if inflow < tail:
         x[inflow] = lambda_0
     if tail < modes[0]:
-        x[tail] = tail_inflow(model, thrust * (lambda_0 + climb) * model.tip_speed, flat * np.sin(sideslip))
+        x[tail] = tail_inflow(model, thrust * (lambda_0 + climb) * model.tip_speed, model.side * flat * np.sin(sideslip))
     flap = modes[rotor["flap_mode"]]
     x[flap] = np.radians(3.0) / rotor["flap_per_coordinate"]
     x[flap + 1] = FORWARD_FLAPPING / rotor["flap_per_coordinate"]

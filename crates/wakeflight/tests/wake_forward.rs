@@ -3,7 +3,8 @@
 mod wake_cases;
 use std::f64::consts::TAU;
 use wake_cases::*;
-use wakeflight::wake::velocity_field::{FieldWork, RotorInstant, VortexSegments, Wanted, field_at};
+use wakeflight::wake::instant::RotorInstant;
+use wakeflight::wake::velocity_field::{FieldWork, VortexSegments, Wanted, field_at};
 use wakeflight::wake::{
     HubMotion, MarchingOptions, Predictor, RelaxationWake, Scheme, TimeMarchingWake, WakeOptions,
 };

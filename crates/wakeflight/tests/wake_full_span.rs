@@ -6,9 +6,8 @@ use std::f64::consts::{PI, TAU};
 use wake_cases::*;
 use wakeflight::vortex::threads::set_threads;
 use wakeflight::wake::geometry::BladeGrid;
-use wakeflight::wake::velocity_field::{
-    FieldWork, RotorInstant, VortexSegments, Wanted, field_at, point_velocity,
-};
+use wakeflight::wake::instant::RotorInstant;
+use wakeflight::wake::velocity_field::{FieldWork, VortexSegments, Wanted, field_at, point_velocity};
 use wakeflight::wake::{
     BladeState, MarchingOptions, Prescribed, RelaxationOptions, RelaxationWake, Scheme, ShedWake, Summation,
     TimeMarchingWake, Trailers, WakeOptions, WakeRotor,

@@ -41,7 +41,8 @@ pub(crate) fn far_cylinder(options: &WakeOptions, tips: &Filaments) -> Option<Vo
 mod tests {
     use super::*;
     use crate::wake::geometry::BladeGrid;
-    use crate::wake::velocity_field::{RotorInstant, VortexSegments, point_velocity};
+    use crate::wake::instant::RotorInstant;
+    use crate::wake::velocity_field::{VortexSegments, point_velocity};
 
     /// Regular helices of two blades, `turns` long.
     fn helices(turns: f64, far_wake: FarWake) -> (WakeOptions, RotorInstant) {

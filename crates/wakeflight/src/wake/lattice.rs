@@ -9,8 +9,8 @@
 use super::choices::{ShedWake, Trailers};
 use super::filament::Filaments;
 use super::options::WakeOptions;
-use super::sources::Sink;
-use super::velocity_field::sum;
+use super::sink::Sink;
+use super::vectors::sum;
 
 /// Who looks at the free vortices of one blade.
 #[derive(Clone, Copy, Debug)]

@@ -1,7 +1,7 @@
 //! How close the tip vortices come to the blades, in core radii.
 
+use super::instant::RotorInstant;
 use super::options::WakeOptions;
-use super::velocity_field::RotorInstant;
 
 /// Smallest distance between a blade's span (root to tip) and a tip-vortex segment, over the segment's core radius.
 ///

@@ -12,6 +12,7 @@ pub mod geometry;
 pub mod inboard_sheet;
 pub mod influence;
 pub mod initial;
+pub mod instant;
 pub mod lattice;
 pub mod lifting_surface;
 pub mod miss_distance;
@@ -19,11 +20,13 @@ pub mod motion;
 pub mod near_wake;
 pub mod options;
 pub mod relaxation;
+mod sink;
 mod sources;
 pub mod stencils;
 pub mod time_marching;
 pub mod tip_strength;
 pub mod trailers;
+mod vectors;
 pub mod velocity_field;
 
 pub use choices::{

@@ -5,7 +5,7 @@ use super::geometry::{BladeGrid, BladeLine};
 use super::influence::influence;
 use super::motion::{BladeState, HubMotion};
 use super::options::WakeOptions;
-use super::velocity_field::sum;
+use super::vectors::sum;
 
 /// Matrix N (n_stations, n_stations), row-major [s/m2]: inflow at the stations that the near wake of the own blade adds,
 /// lambda_i = sum_j N_ij Gamma_j, lambda = -v_z/(omega R).

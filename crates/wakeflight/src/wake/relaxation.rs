@@ -5,13 +5,14 @@ use super::filament::{aged_core_squared, distance, stretched_core_squared};
 use super::geometry::{BladeGrid, release_points};
 use super::inboard_sheet;
 use super::initial;
+use super::instant::RotorInstant;
 use super::motion::{BladeState, HubMotion};
 use super::options::{RelaxationOptions, WakeOptions};
 use super::stencils;
 use super::trailers;
+use super::vectors::sum;
 use super::velocity_field::{
-    FieldWork, InducedVelocity, Induction, RotorInstant, VortexSegments, Wanted, field_at, point_velocity,
-    sum,
+    FieldWork, InducedVelocity, Induction, VortexSegments, Wanted, field_at, point_velocity,
 };
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;

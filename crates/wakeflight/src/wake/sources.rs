@@ -1,32 +1,12 @@
 //! The vortices of a rotor and its wake packed for the sum, and what each blade sees of them.
 
 use super::choices::Trailers;
+use super::instant::RotorInstant;
 use super::lattice::{Viewer, bound, push_filament, push_shed};
 use super::options::WakeOptions;
-use super::velocity_field::RotorInstant;
+use super::sink::Sink;
 use crate::vortex::induced_velocity::Segments;
 use crate::vortex::sources::{Mark, Part, Sources};
-
-/// Where segments go.
-pub(crate) trait Sink {
-    /// Appends one segment.
-    fn push(&mut self, start: [f64; 3], end: [f64; 3], circulation: f64, core_radius: f64);
-}
-
-impl Sink for Segments {
-    fn push(&mut self, start: [f64; 3], end: [f64; 3], circulation: f64, core_radius: f64) {
-        self.start.push(start);
-        self.end.push(end);
-        self.circulation.push(circulation);
-        self.core_radius.push(core_radius);
-    }
-}
-
-impl Sink for Sources {
-    fn push(&mut self, start: [f64; 3], end: [f64; 3], circulation: f64, core_radius: f64) {
-        Sources::push(self, start, end, circulation, core_radius);
-    }
-}
 
 /// What trails, what is shed, what an inboard sheet holds and what is bound: in this order, each blade by blade.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -174,4 +154,19 @@ fn pack_all(
         }
     }
     marks.push(to.mark());
+}
+
+impl RotorInstant {
+    /// Every segment in its fixed order. Seen from the stations of `own_blade`: without its bound vortex, its filaments
+    /// beyond the near wake only, and no core smaller than the floor.
+    pub fn segments(&self, options: &WakeOptions, own_blade: Option<usize>) -> Segments {
+        let mut segments = Segments::default();
+        let floor = own_blade.map_or(0.0, |_| options.station_core_floor * options.rotor.chord);
+        for kind in KINDS {
+            for blade in 0..options.rotor.n_blades {
+                push_kind(&mut segments, options, self, kind, blade, own_blade == Some(blade), floor);
+            }
+        }
+        segments
+    }
 }

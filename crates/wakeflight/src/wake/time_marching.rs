@@ -5,15 +5,14 @@ use super::error::{WakeError, finite, length};
 use super::filament::{aged_core_squared, distance, stretched_core_squared};
 use super::geometry::{BladeGrid, release_points};
 use super::inboard_sheet;
+use super::instant::RotorInstant;
 use super::motion::{BladeState, HubMotion};
 use super::options::{MarchingOptions, WakeOptions};
 use super::relaxation::{RelaxationWake, tip_rows};
 use super::stencils::{Cell, unknown_corner};
 use super::trailers;
-use super::velocity_field::{
-    FieldWork, InducedVelocity, Induction, RotorInstant, Wanted, difference, field_at, mean, point_velocity,
-    sum,
-};
+use super::vectors::{difference, mean, sum};
+use super::velocity_field::{FieldWork, InducedVelocity, Induction, Wanted, field_at, point_velocity};
 use std::f64::consts::TAU;
 
 /// Largest motion of a marker in one step, over R.

@@ -4,14 +4,15 @@ use super::choices::CoreDistance;
 use super::error::{WakeError, finite};
 use super::far_cylinder::far_cylinder;
 use super::filament::Filaments;
-use super::geometry::{BladeGrid, BladeLine};
-use super::motion::{BladeState, HubMotion};
+use super::instant::RotorInstant;
+use super::motion::HubMotion;
 use super::options::WakeOptions;
-use super::sources::{KINDS, SEEN, WakeSources, push_kind};
+use super::sources::{SEEN, WakeSources};
+use super::vectors::add_to;
 use crate::vortex::core::Core;
 use crate::vortex::curvature::curvature_velocity;
 use crate::vortex::cylinder::VortexCylinder;
-use crate::vortex::induced_velocity::{Segments, add_groups_velocity};
+use crate::vortex::induced_velocity::add_groups_velocity;
 use crate::vortex::sources::{Group, Part};
 use crate::vortex::tree::{Method, add_part_velocity_by};
 use serde::{Deserialize, Serialize};
@@ -182,79 +183,6 @@ impl InducedVelocity for Induction {
     }
 }
 
-/// The rotor and its wake at one instant.
-#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
-pub struct RotorInstant {
-    /// Free filaments, blade after blade, each from root to tip: the tip vortices, or all trailers.
-    pub free: Filaments,
-    /// Filaments of the inboard sheet, blade after blade; none without a sheet.
-    pub sheet: Filaments,
-    /// Edges of the bound elements (n_blades, n_stations + 1) [m, `_h`].
-    pub edge: Vec<[f64; 3]>,
-    /// Stations (n_blades, n_stations) [m, `_h`].
-    pub station: Vec<[f64; 3]>,
-    /// Bound circulation (n_blades, n_stations) [m2/s].
-    pub circulation: Vec<f64>,
-    /// Edges that the trailers of a blade leave from.
-    pub(super) trailer_edges: Vec<usize>,
-}
-
-impl RotorInstant {
-    /// Blades and empty filaments.
-    pub fn new(options: &WakeOptions, grid: &BladeGrid) -> Self {
-        RotorInstant {
-            free: Filaments::new(options, options.rotor.n_blades * options.trailers_per_blade()),
-            sheet: Filaments::new(options, options.rotor.n_blades * options.sheet_filaments()),
-            edge: vec![[0.0; 3]; options.rotor.n_blades * (options.n_stations + 1)],
-            station: vec![[0.0; 3]; options.rotor.n_blades * options.n_stations],
-            circulation: vec![0.0; options.rotor.n_blades * options.n_stations],
-            trailer_edges: grid.trailer_edges.clone(),
-        }
-    }
-
-    /// Places blade `i_blade` with its bound circulation (n_stations) [m2/s].
-    pub fn place_blade(
-        &mut self,
-        options: &WakeOptions,
-        grid: &BladeGrid,
-        i_blade: usize,
-        blade: &BladeState,
-        circulation: &[f64],
-    ) {
-        let (n, line) = (options.n_stations, BladeLine::new(options, blade));
-        for (j, r) in grid.edges.iter().enumerate() {
-            self.edge[i_blade * (n + 1) + j] = line.at(*r);
-        }
-        for (j, r) in grid.stations.iter().enumerate() {
-            self.station[i_blade * n + j] = line.at(*r);
-        }
-        self.circulation[i_blade * n..(i_blade + 1) * n].copy_from_slice(circulation);
-    }
-
-    /// Every segment in its fixed order. Seen from the stations of `own_blade`: without its bound vortex, its filaments
-    /// beyond the near wake only, and no core smaller than the floor.
-    pub fn segments(&self, options: &WakeOptions, own_blade: Option<usize>) -> Segments {
-        let mut segments = Segments::default();
-        let floor = own_blade.map_or(0.0, |_| options.station_core_floor * options.rotor.chord);
-        for kind in KINDS {
-            for blade in 0..options.rotor.n_blades {
-                push_kind(&mut segments, options, self, kind, blade, own_blade == Some(blade), floor);
-            }
-        }
-        segments
-    }
-
-    /// Becomes a copy of `other`; room is kept.
-    pub fn copy(&mut self, other: &Self) {
-        self.free.copy(&other.free);
-        self.sheet.copy(&other.sheet);
-        self.edge.clone_from(&other.edge);
-        self.station.clone_from(&other.station);
-        self.circulation.clone_from(&other.circulation);
-        self.trailer_edges.clone_from(&other.trailer_edges);
-    }
-}
-
 /// What a field at one instant is made with: the vortices packed, velocities at the stations. Kept from step to step.
 #[derive(Debug, Default)]
 pub struct FieldWork {
@@ -362,26 +290,4 @@ pub fn point_velocity<F: InducedVelocity>(
         field.add_far(&mut groups, &cylinder);
     }
     velocity
-}
-
-/// Sum of two vectors.
-pub(crate) fn sum(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
-}
-
-/// Mean of two vectors.
-pub(super) fn mean(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|c| 0.5 * (a[c] + b[c]))
-}
-
-/// Difference of two vectors.
-pub(super) fn difference(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|c| a[c] - b[c])
-}
-
-/// Adds `b` to `a`.
-pub(crate) fn add_to(a: &mut [f64; 3], b: [f64; 3]) {
-    for c in 0..3 {
-        a[c] += b[c];
-    }
 }

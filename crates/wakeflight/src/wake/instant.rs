@@ -1,0 +1,67 @@
+//! Rotor and wake at one instant: filaments, blades on their lines, bound circulation.
+
+use super::filament::Filaments;
+use super::geometry::{BladeGrid, BladeLine};
+use super::motion::BladeState;
+use super::options::WakeOptions;
+use serde::{Deserialize, Serialize};
+
+/// The rotor and its wake at one instant.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+pub struct RotorInstant {
+    /// Free filaments, blade after blade, each from root to tip: the tip vortices, or all trailers.
+    pub free: Filaments,
+    /// Filaments of the inboard sheet, blade after blade; none without a sheet.
+    pub sheet: Filaments,
+    /// Edges of the bound elements (n_blades, n_stations + 1) [m, `_h`].
+    pub edge: Vec<[f64; 3]>,
+    /// Stations (n_blades, n_stations) [m, `_h`].
+    pub station: Vec<[f64; 3]>,
+    /// Bound circulation (n_blades, n_stations) [m2/s].
+    pub circulation: Vec<f64>,
+    /// Edges that the trailers of a blade leave from.
+    pub(super) trailer_edges: Vec<usize>,
+}
+
+impl RotorInstant {
+    /// Blades and empty filaments.
+    pub fn new(options: &WakeOptions, grid: &BladeGrid) -> Self {
+        RotorInstant {
+            free: Filaments::new(options, options.rotor.n_blades * options.trailers_per_blade()),
+            sheet: Filaments::new(options, options.rotor.n_blades * options.sheet_filaments()),
+            edge: vec![[0.0; 3]; options.rotor.n_blades * (options.n_stations + 1)],
+            station: vec![[0.0; 3]; options.rotor.n_blades * options.n_stations],
+            circulation: vec![0.0; options.rotor.n_blades * options.n_stations],
+            trailer_edges: grid.trailer_edges.clone(),
+        }
+    }
+
+    /// Places blade `i_blade` with its bound circulation (n_stations) [m2/s].
+    pub fn place_blade(
+        &mut self,
+        options: &WakeOptions,
+        grid: &BladeGrid,
+        i_blade: usize,
+        blade: &BladeState,
+        circulation: &[f64],
+    ) {
+        let (n, line) = (options.n_stations, BladeLine::new(options, blade));
+        for (j, r) in grid.edges.iter().enumerate() {
+            self.edge[i_blade * (n + 1) + j] = line.at(*r);
+        }
+        for (j, r) in grid.stations.iter().enumerate() {
+            self.station[i_blade * n + j] = line.at(*r);
+        }
+        self.circulation[i_blade * n..(i_blade + 1) * n].copy_from_slice(circulation);
+    }
+
+    /// Becomes a copy of `other`; room is kept.
+    pub fn copy(&mut self, other: &Self) {
+        self.free.copy(&other.free);
+        self.sheet.copy(&other.sheet);
+        self.edge.clone_from(&other.edge);
+        self.station.clone_from(&other.station);
+        self.circulation.clone_from(&other.circulation);
+        self.trailer_edges.clone_from(&other.trailer_edges);
+    }
+}

@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""A clockwise helicopter is the mirror image of its counter-clockwise twin: trims and flights are mirrored to the last bit."""
+
+import numpy as np
+import pytest
+
+import wakeflight as wf
+
+ODD = {"v", "p", "r", "roll", "yaw", "east", "force_y", "moment_x", "moment_z"}
+"""Variables that change their sign in the mirror; blades, sticks and inflow count in the rotor's own sense."""
+COARSE = {"azimuth_step": "15 deg", "turns": 2}
+
+
+def mirrored(name, values):
+    """Values of a variable seen in the mirror; vectors along the last axis."""
+    if name in ODD:
+        return -values
+    if name in ("hub_force", "wake"):
+        return values * np.array([1.0, -1.0, 1.0])
+    if name == "hub_moment":
+        return values * np.array([-1.0, 1.0, -1.0])
+    return values
+
+
+def same(twin, image, ignored=()):
+    """Names of numeric variables of which the image is not exactly the mirrored twin."""
+    names = [name for name in twin.data_vars if twin[name].dtype.kind == "f" and name not in ignored]
+    return [name for name in names if not np.array_equal(mirrored(name, twin[name].values), image[name].values, equal_nan=True)]
+
+
+@pytest.fixture(scope="module")
+def twins():
+    aircraft = wf.load_aircraft("uh60a")
+    return aircraft, aircraft.mirrored()
+
+
+@pytest.mark.parametrize("inflow", ["dynamic", "time-marching"])
+def test_the_mirrored_helicopter_flies_the_mirrored_maneuver_to_the_bit(twins, inflow):
+    models = {"dynamic": (wf.DynamicInflow(),) * 2, "time-marching": (wf.RelaxationWake(**COARSE), wf.TimeMarchingWake(**COARSE))}
+    trimming, flying = models[inflow]
+    starts = [wf.trim(each, inflow=trimming) for each in twins]
+    assert starts[1].roll == -starts[0].roll and starts[1].yaw == -starts[0].yaw
+    assert np.array_equal(starts[0].stick_si, starts[1].stick_si)
+    # the roll reversal goes right and then left; in the mirror the lateral stick counts from the other stop
+    twin, image = (wf.fly(each, wf.roll_reversal(), inflow=flying, revolutions=2, integrator="fixed").data for each in starts)
+    assert np.abs(np.diff(twin.roll.values)).max() > 0.0
+    assert same(twin, image) == []
+
+
+def test_the_mirror_image_of_the_mirror_image_is_the_aircraft(twins):
+    aircraft, image = twins
+    assert image.mirrored().core_data() == aircraft.core_data()
+    assert image.core_data()["rotor"]["rotation"] == "cw"
+
+
+def test_a_clockwise_rotor_on_the_stand_is_its_twin():
+    # axes of the stand point to the advancing side
+    aircraft = wf.load_aircraft("uh60a")
+    one, other = (wf.tunnel(each, "8 deg", speed="80 kt", inflow="dynamic") for each in (aircraft, aircraft.mirrored()))
+    assert (one.ct, one.cq, one.beta_1s) == (other.ct, other.cq, other.beta_1s)
