@@ -37,7 +37,7 @@ impl PyFixedStep {
     ) -> PyResult<Self> {
         let layout = aircraft.inner.layout;
         let (y, atol) =
-            (numbers("y", y.as_slice()?, layout.len())?, numbers("atol", atol.as_slice()?, layout.len())?);
+            (sized("y", y.as_slice()?, layout.len())?, numbers("atol", atol.as_slice()?, layout.len())?);
         let solver = FixedStep::new(layout, t, y, rtol, atol, newton_share);
         Ok(Self { inner: solver.keeping(kept) })
     }
@@ -115,7 +115,7 @@ impl PyExplicitStep {
         atol: PyReadonlyArray1<f64>,
     ) -> PyResult<Self> {
         let n = aircraft.inner.layout.len();
-        let (y, atol) = (numbers("y", y.as_slice()?, n)?, numbers("atol", atol.as_slice()?, n)?);
+        let (y, atol) = (sized("y", y.as_slice()?, n)?, numbers("atol", atol.as_slice()?, n)?);
         let inner = ExplicitStep::new(&aircraft.inner, t, y, rtol, atol)
             .ok_or_else(|| PyValueError::new_err("explicit steps: for blades that do not bend"))?;
         Ok(Self { inner })
