@@ -38,7 +38,7 @@ impl PyFixedStep {
     ) -> PyResult<Self> {
         let layout = &system.inner.layout;
         let (y, atol) =
-            (numbers("y", y.as_slice()?, layout.len())?, numbers("atol", atol.as_slice()?, layout.len())?);
+            (sized("y", y.as_slice()?, layout.len())?, numbers("atol", atol.as_slice()?, layout.len())?);
         let solver = FixedStep::new(layout, t, y, rtol, atol, newton_share);
         Ok(Self { inner: solver.keeping(kept) })
     }
@@ -116,7 +116,7 @@ impl PyExplicitStep {
         atol: PyReadonlyArray1<f64>,
     ) -> PyResult<Self> {
         let n = system.inner.layout.len();
-        let (y, atol) = (numbers("y", y.as_slice()?, n)?, numbers("atol", atol.as_slice()?, n)?);
+        let (y, atol) = (sized("y", y.as_slice()?, n)?, numbers("atol", atol.as_slice()?, n)?);
         let inner = ExplicitStep::new(&system.inner, t, y, rtol, atol)
             .ok_or_else(|| PyValueError::new_err("explicit steps: for blades that do not bend"))?;
         Ok(Self { inner })
