@@ -120,8 +120,7 @@ mod tests {
     fn panels_gather_whole_elements_from_root_to_tip() {
         let full_span =
             WakeOptions { trailers: Trailers::FullSpan, ..WakeOptions::new(4, 8.0, 1.0, 0.4, 0.5, 27.0) };
-        let edges =
-            |n_trailers| BladeGrid::new(&WakeOptions { n_trailers, ..full_span.clone() }).trailer_edges;
+        let edges = |n_trailers| BladeGrid::new(&WakeOptions { n_trailers, ..full_span }).trailer_edges;
         assert_eq!(edges(0), (0..=20).collect::<Vec<_>>());
         for n_trailers in 2..=21 {
             let edges = edges(n_trailers);
