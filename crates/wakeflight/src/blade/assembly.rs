@@ -27,8 +27,8 @@ pub struct Matrices {
 impl Matrices {
     /// Integrals over the blade at rotor speed `omega` [rad/s] and root pitch `reference_pitch` [rad].
     ///
-    /// Strain energy 1/2 int EI_flap k_f^2 + EI_lag k_l^2 + GJ phi'^2 dx + 1/2 K phi(root)^2 + 1/2 K_flap w'(root)^2
-    /// + 1/2 K_lag v'(root)^2 with
+    /// Strain energy 1/2 int EI_flap k_f^2 + EI_lag k_l^2 + GJ phi'^2 dx, with the springs of the root
+    /// 1/2 (K phi(root)^2 + K_flap w'(root)^2 + K_lag v'(root)^2), and
     /// k_f = w'' cos th - v'' sin th, k_l = v'' cos th + w'' sin th, th = reference pitch + twist.
     /// Axial shift u = -1/2 int v'^2 + w'^2 + k_A^2 (phi'^2 + 2 th_tw' phi') dx: its quadratic part carries the tension
     /// T(x) = int_x^R (dT0/du) dx, its linear part (tension-twist coupling) enters the section's inertia.
