@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """Time integration of F(y_dot, y, u; t) = 0 behind a thin interface."""
 
 from __future__ import annotations
