@@ -25,7 +25,11 @@ def mirrored(name, values):
 def same(twin, image, ignored=()):
     """Names of numeric variables of which the image is not exactly the mirrored twin."""
     names = [name for name in twin.data_vars if twin[name].dtype.kind == "f" and name not in ignored]
-    return [name for name in names if not np.array_equal(mirrored(name, twin[name].values), image[name].values, equal_nan=True)]
+    return [
+        name
+        for name in names
+        if not np.array_equal(mirrored(name, twin[name].values), image[name].values, equal_nan=True)
+    ]
 
 
 @pytest.fixture(scope="module")
@@ -36,13 +40,18 @@ def twins():
 
 @pytest.mark.parametrize("inflow", ["dynamic", "time-marching"])
 def test_the_mirrored_helicopter_flies_the_mirrored_maneuver_to_the_bit(twins, inflow):
-    models = {"dynamic": (wf.DynamicInflow(),) * 2, "time-marching": (wf.RelaxationWake(**COARSE), wf.TimeMarchingWake(**COARSE))}
+    models = {
+        "dynamic": (wf.DynamicInflow(),) * 2,
+        "time-marching": (wf.RelaxationWake(**COARSE), wf.TimeMarchingWake(**COARSE)),
+    }
     trimming, flying = models[inflow]
     starts = [wf.trim(each, inflow=trimming) for each in twins]
     assert starts[1].roll == -starts[0].roll and starts[1].yaw == -starts[0].yaw
     assert np.array_equal(starts[0].stick_si, starts[1].stick_si)
     # the roll reversal goes right and then left; in the mirror the lateral stick counts from the other stop
-    twin, image = (wf.fly(each, wf.roll_reversal(), inflow=flying, revolutions=2, integrator="fixed").data for each in starts)
+    twin, image = (
+        wf.fly(each, wf.roll_reversal(), inflow=flying, revolutions=2, integrator="fixed").data for each in starts
+    )
     assert np.abs(np.diff(twin.roll.values)).max() > 0.0
     assert same(twin, image) == []
 
