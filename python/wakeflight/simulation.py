@@ -13,6 +13,7 @@ import json
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any, Protocol
 
 import numpy as np
@@ -306,7 +307,7 @@ class Simulation:
             "integrator": self.solver.memory(),
             "exchange": bytes(self.exchange.core.to_bytes()),
         }
-        return Snapshot(self.configuration, scalars, parts)
+        return Snapshot(dict(self.configuration), scalars, parts)
 
     def restore(self, snapshot: Snapshot) -> None:
         """Go on from `snapshot`, of this simulation or of one of the same configuration from the same trim."""
@@ -322,7 +323,7 @@ class Simulation:
         self._stick = np.array(snapshot.scalars["stick"])
         self._incidence = snapshot.scalars["stabilator"]
 
-    @property
+    @cached_property
     def configuration(self) -> dict[str, str]:
         """What a snapshot belongs to, by name: aircraft and its data, condition, inflow model, integrator, trim."""
         model, start = self.model, self.start

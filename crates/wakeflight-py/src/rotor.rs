@@ -14,6 +14,7 @@ pub fn rotor_constants<'py>(py: Python<'py>, r: &Rotor) -> PyResult<Bound<'py, P
     d.set_item("hinge_offset", r.hinge())?;
     d.set_item("n_blades", r.n_blades)?;
     d.set_item("rigid", r.blade.rigid.is_some())?;
+    d.set_item("solidity", r.solidity())?;
     d.set_item("hand", r.sense.hand())?;
     d.set_item("flap_mode", r.blade.flap_mode)?;
     d.set_item("flap_per_coordinate", r.flap_per_coordinate())?;

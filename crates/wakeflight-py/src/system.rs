@@ -130,7 +130,7 @@ impl PySystem {
 
     /// Constants of the rotor that the coupling and the results need.
     fn rotor<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        rotor_constants(py, &self.inner.main())
+        rotor_constants(py, self.inner.main())
     }
 
     /// F into `out`.
