@@ -49,8 +49,8 @@ impl PySystem {
     ) -> PyResult<Vec<ModalMotion<f64>>> {
         let n = self.inner.main().blade.n_modes;
         let (q, q_dot) = (map("q", q, rows, n)?, map("q_dot", q_dot, rows, n)?);
-        let at = |values: &[f64], k: usize| values[k * n..(k + 1) * n].iter().copied();
-        Ok((0..rows).map(|k| motion(at(&q, k), at(&q_dot, k))).collect())
+        let row = |k: usize| k * n..(k + 1) * n;
+        Ok((0..rows).map(|k| motion(q[row(k)].iter().copied(), q_dot[row(k)].iter().copied())).collect())
     }
 
     /// A blade at each of `n` azimuths of a periodic motion (n, n_modes), the sticks held.
