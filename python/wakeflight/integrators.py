@@ -293,8 +293,7 @@ def absolute_tolerances(model: CompiledRotor) -> np.ndarray:
     atol = np.array([TOLERANCES.get(unit, np.nan) for _, unit in model.core.state_names()])
     modal = ANGLE / np.asarray(model.rotor["angle_per_coordinate"])
     fastest = np.maximum(np.asarray(model.rotor["frequencies"]), model.omega)
-    layout = model.core.layout()
-    for (a, b), (c, d) in zip(layout["modal"], layout["modal_rate"], strict=True):
+    for (a, b), (c, d) in zip(model.layout["modal"], model.layout["modal_rate"], strict=True):
         atol[a:b] = modal
         atol[c:d] = modal * fastest
     return atol

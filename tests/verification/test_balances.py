@@ -59,9 +59,9 @@ def test_in_a_manoeuvre_hub_loads_and_power_follow_from_momentum_and_energy_of_t
     kept = []
     original = Recorder.record
 
-    def keep(self, step, t, y, y_dot, inputs, stick, *rest):
-        original(self, step, t, y, y_dot, inputs, stick, *rest)
-        kept.append((self.model, t, y.copy(), y_dot.copy(), inputs, stick))
+    def keep(self, instant):
+        original(self, instant)
+        kept.append((self.model, instant.t, instant.y.copy(), instant.y_dot.copy(), instant.inputs, instant.stick))
 
     monkeypatch.setattr(Recorder, "record", keep)
     maneuver = wf.arrested_descent(start="0.05 s")

@@ -146,7 +146,9 @@ def test_a_state_that_cannot_be_flown_is_named(baseline_dynamic):
     first = model.layout["modal"][0][0]
     y[first + model.rotor["flap_mode"]] = np.nan
     solver = FixedIntegrator(model)
-    with pytest.raises(ArithmeticError, match=r"fixed step stopped at t = 0\.0000 s, azimuth .* equation of blade_0"):
+    with pytest.raises(
+        ArithmeticError, match=r"fixed step stopped at t = 0\.0000 s, azimuth .* equation of rotor.main.blade_0"
+    ):
         solver.consistent(0.0, y, baseline_dynamic.inputs())
 
 

@@ -92,5 +92,7 @@ def test_a_step_too_long_is_halved_and_counted(rigid):
 def test_a_state_that_cannot_be_flown_is_named(rigid):
     y = rigid.state()
     y[rigid.model.layout["modal"][0][0]] = np.nan
-    with pytest.raises(ArithmeticError, match=r"fixed explicit step stopped at t = 0\.0000 s, .* worst in blade_0"):
+    with pytest.raises(
+        ArithmeticError, match=r"fixed explicit step stopped at t = 0\.0000 s, .* worst in rotor.main.blade_0"
+    ):
         FixedIntegrator(rigid.model).consistent(0.0, y, rigid.inputs())

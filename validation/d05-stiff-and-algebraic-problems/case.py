@@ -40,7 +40,7 @@ class Problem:
         return Derivatives()
 
     def state_names(self):
-        return [(f"y{i}", "-") for i in range(self.n)]
+        return [(f"y{i}", "1") for i in range(self.n)]
 
     def integrate(self, y, rate, times, atol):
         solver = IdaIntegrator(self, RTOL)

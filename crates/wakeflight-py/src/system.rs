@@ -282,14 +282,15 @@ impl PySystem {
         &self,
         py: Python<'py>,
         q: PyReadonlyArray2<f64>,
-    ) -> (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>) {
-        let (flap, lead): (Vec<f64>, Vec<f64>) = q
-            .as_array()
-            .rows()
-            .into_iter()
-            .map(|row| self.inner.main().equivalent_angles(&motion(row.iter().copied(), std::iter::empty())))
-            .unzip();
-        (flap.into_pyarray(py), lead.into_pyarray(py))
+    ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>)> {
+        let (rotor, rows) = (self.inner.main(), q.as_array().nrows());
+        let n = rotor.blade.n_modes;
+        let q = map("q", &q, rows, n)?;
+        let angles = |k: usize| {
+            rotor.equivalent_angles(&motion(q[k * n..(k + 1) * n].iter().copied(), std::iter::empty()))
+        };
+        let (flap, lead): (Vec<f64>, Vec<f64>) = (0..rows).map(angles).unzip();
+        Ok((flap.into_pyarray(py), lead.into_pyarray(py)))
     }
 
     /// Circulation and near wake solved together for a set of blade instants.

@@ -123,6 +123,9 @@ impl<T: Number> Factor<T> {
         let n = self.pivots.len();
         for f in &mut self.blades {
             let m = f.pivots.len();
+            if m == 0 {
+                continue;
+            }
             factorise(m, &mut f.own, &mut f.pivots)?;
             for column in f.by_shared.chunks_exact_mut(m) {
                 substitute(m, &f.own, &f.pivots, column);
@@ -147,6 +150,9 @@ impl<T: Number> Factor<T> {
         }
         for (f, b) in self.blades.iter_mut().zip(&slopes.blades) {
             let m = b.n_modes();
+            if m == 0 {
+                continue;
+            }
             f.right.copy_from_slice(&x[b.modal_rate.clone()]);
             if let Kind::Newton(_) = self.kind {
                 let r_q = &x[b.modal.clone()];
@@ -168,6 +174,9 @@ impl<T: Number> Factor<T> {
         }
         for (f, b) in self.blades.iter_mut().zip(&slopes.blades) {
             let (q, s, m) = (b.modal.start, b.modal_rate.start, b.n_modes());
+            if m == 0 {
+                continue;
+            }
             for (shared, column) in self.right.iter().zip(f.by_shared.chunks_exact(m)) {
                 for (r, v) in f.right.iter_mut().zip(column) {
                     *r -= *v * *shared;
@@ -195,7 +204,7 @@ fn copy<T: Number>(to: &mut [T], from: &Block) {
 
 /// to[column][row] = from(row, column) for `rows` rows.
 fn copy_transposed<T: Number>(to: &mut [T], from: impl Fn(usize, usize) -> T, rows: usize) {
-    for (j, column) in to.chunks_exact_mut(rows).enumerate() {
+    for (j, column) in to.chunks_exact_mut(rows.max(1)).enumerate() {
         for (i, v) in column.iter_mut().enumerate() {
             *v = from(i, j);
         }

@@ -174,7 +174,8 @@ impl System {
         let (rotor, l) = (&self.rotors[r], &self.layout.rotors[r]);
         let n = rotor.n_blades;
         let (mut cosine, mut sine) = (S::zero(), S::zero());
-        for b in 0..n {
+        // a blade that nothing moves does not flap
+        for b in 0..if l.n_modes > 0 { n } else { 0 } {
             let flap = y[l.modal(b).start + rotor.blade.flap_mode] * rotor.flap_per_coordinate();
             let (s, c) = self.azimuth(r, t, b).sin_cos();
             cosine += flap * (2.0 * c / n as f64);

@@ -16,7 +16,8 @@ impl System {
             let share = rotor.flap_per_coordinate() * 2.0 * c / rotor.n_blades as f64;
             product(&felt.by_loads, &blade.loads, &mut blade.on_shared, false);
             product(&felt.by_loads, &blade.loads_by_shared, &mut slopes.shared_y, true);
-            for i in 0..n {
+            let moved = if blade.n_modes() > 0 { n } else { 0 };
+            for i in 0..moved {
                 let direct = blade.on_shared.at(i, flap) + felt.by_flapping[i] * share;
                 blade.on_shared.set(i, flap, direct);
             }
@@ -40,6 +41,9 @@ impl Slopes {
 /// out = a b, or out += a b.
 fn product(a: &Block, b: &Block, out: &mut Block, add: bool) {
     let columns = b.columns;
+    if columns == 0 {
+        return;
+    }
     for (row, result) in out.values.chunks_exact_mut(columns).enumerate() {
         if !add {
             result.fill(0.0);
