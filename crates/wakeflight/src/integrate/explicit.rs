@@ -204,6 +204,10 @@ impl ExplicitStep {
 
     fn difference_in_weights(&self) -> f64 {
         let n = self.y.len();
+        // a stand whose blades are held and whose inflow is given has no state
+        if n == 0 {
+            return 0.0;
+        }
         ((0..n).map(|i| self.weighted(i).powi(2)).sum::<f64>() / n as f64).sqrt()
     }
 
@@ -228,7 +232,7 @@ impl ExplicitStep {
             t: self.t,
             azimuth: system.azimuth(0, self.t, 0).to_degrees().rem_euclid(360.0),
             reason,
-            state: system.layout.names().swap_remove(worst).0,
+            state: system.layout.names().into_iter().nth(worst).map_or_else(String::new, |(name, _)| name),
         }
     }
 }

@@ -401,8 +401,8 @@ impl FixedStep {
             t: self.t,
             azimuth: system.azimuth(0, self.t, 0).to_degrees().rem_euclid(360.0),
             reason,
-            residual: f[worst],
-            equation: system.layout.names().swap_remove(worst).0,
+            residual: f.get(worst).copied().unwrap_or(0.0),
+            equation: system.layout.names().into_iter().nth(worst).map_or_else(String::new, |(name, _)| name),
         }
     }
 }
