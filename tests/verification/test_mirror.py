@@ -57,7 +57,7 @@ def test_the_mirrored_helicopter_flies_the_mirrored_maneuver_to_the_bit(twins, i
     flights = [
         wf.fly(each, wf.roll_reversal(), inflow=flying, revolutions=3, integrator="fixed").data for each in starts
     ]
-    assert np.abs(flights[0].roll.values).max() > np.radians(0.1)
+    assert np.abs(flights[0]["roll"].values).max() > np.radians(0.1)
     assert same(*flights) == []
 
 
