@@ -57,7 +57,9 @@ def first_guess(model: Model, problem: _core.TrimProblem) -> np.ndarray:
     if inflow < tail:
         x[inflow] = lambda_0
     if tail < modes[0]:
-        x[tail] = tail_inflow(model, thrust * (lambda_0 + climb) * model.tip_speed, model.side * flat * np.sin(sideslip))
+        x[tail] = tail_inflow(
+            model, thrust * (lambda_0 + climb) * model.tip_speed, model.side * flat * np.sin(sideslip)
+        )
     flap = modes[rotor["flap_mode"]]
     x[flap] = np.radians(3.0) / rotor["flap_per_coordinate"]
     x[flap + 1] = FORWARD_FLAPPING / rotor["flap_per_coordinate"]
