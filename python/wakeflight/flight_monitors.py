@@ -59,7 +59,7 @@ def monitors(run: Recorder) -> tuple[Monitor, ...]:
     names = ("lateral", "longitudinal", "collective", "pedal")
     inches = dict(zip(names, stick.T / 0.0254, strict=True))
     engine = rotor.over_passage(run.scalars["power"][:n], passage)
-    shaft = rotor.over_passage(-run.loads["hub_moment"][:n, 2], passage)
+    shaft = rotor.over_passage(-model.hand * run.loads["hub_moment"][:n, 2], passage)
     found = [
         rotor.induced_velocity(fields["inflow"], usual, bound, places),
         rotor.mach_number(fields["mach"], fastest, table_end(tables), places),

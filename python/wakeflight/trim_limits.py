@@ -101,7 +101,9 @@ def tail_flow(model: Model, problem: _core.TrimProblem, x: np.ndarray) -> tuple[
     at = model.core.trim_layout(problem).tail_inflow
     y, _ = model.core.trim_state(problem, x, 0.0)
     sin, cos = np.sin(tail["cant"]), np.cos(tail["cant"])
-    velocity = (y[:3] + np.cross(y[3:6], tail["position"])) / (tail["omega"] * tail["radius"])
+    # seen in the mirror where the tail rotor is the mirror image of its data
+    velocity, rates = y[:3] * [1.0, model.side, 1.0], y[3:6] * [model.side, 1.0, model.side]
+    velocity = (velocity + np.cross(rates, tail["position"])) / (tail["omega"] * tail["radius"])
     axial, across = velocity[1] * cos - velocity[2] * sin, velocity[1] * sin + velocity[2] * cos
     mu = float(np.hypot(velocity[0], across))
     return float(2 * x[at] * np.hypot(mu, x[at] + axial)), float(-axial), mu

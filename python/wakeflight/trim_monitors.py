@@ -54,7 +54,7 @@ def monitors(start: Trim) -> tuple[Monitor, ...]:
         *airframe.sticks(start.stick, start.aircraft.stick_travel_in),
         airframe.tail_rotor(tail_loading(model, start.problem, start.x), TAIL_LOADING, ring),
         airframe.power(mean["power"], start.aircraft.limits.power),
-        *airframe.torque(-mean["hub_moment"][2], start.aircraft.limits.torque),
+        *airframe.torque(-model.hand * mean["hub_moment"][2], start.aircraft.limits.torque),
         *airframe.rotor_speed(model.omega, start.aircraft.limits.rotor_speed),
         airframe.attitude(start.roll, start.pitch, condition.bank is not None or condition.turn_rate != 0.0),
         airframe.sideslip(y[:2], condition.sideslip is not None),

@@ -8,6 +8,7 @@ import pytest
 
 import wakeflight as wf
 from wakeflight.model import ROLL, YAW
+from wakeflight.trim_limits import tail_flow
 
 ODD = {"v", "p", "r", "roll", "yaw", "east", "force_y", "moment_x", "moment_z"}
 """Variables that change their sign in the mirror; blades, sticks and inflow count in the rotor's own sense."""
@@ -59,6 +60,22 @@ def test_the_mirrored_helicopter_flies_the_mirrored_maneuver_to_the_bit(twins, i
     ]
     assert np.abs(flights[0]["roll"].values).max() > np.radians(0.1)
     assert same(*flights) == []
+
+
+def test_flight_in_a_side_wind_is_mirrored_with_what_is_watched_of_it(twins):
+    twin, image = (
+        wf.trim(aircraft, wf.FlightCondition(speed="60 kt", sideslip=sideslip), inflow="dynamic")
+        for aircraft, sideslip in zip(twins, ("12 deg", "-12 deg"), strict=True)
+    )
+    assert abs(twin.roll) > np.radians(1.0)
+    assert (image.roll, image.yaw) == pytest.approx((-twin.roll, -twin.yaw), abs=1e-9)
+    assert image.stick_si == pytest.approx(twin.stick_si, abs=1e-9)
+    flows = [tail_flow(each.model, each.problem, each.x) for each in (twin, image)]
+    assert flows[1] == pytest.approx(flows[0], abs=1e-9)
+    # the engine turns either rotor
+    shafts = [-each.model.hand * each.mean_outputs()["hub_moment"][2] for each in (twin, image)]
+    assert shafts[0] > 0.0
+    assert shafts[1] == pytest.approx(shafts[0], rel=1e-9)
 
 
 def test_the_mirror_image_of_the_mirror_image_is_the_aircraft(twins):

@@ -150,8 +150,6 @@ def _march(stand: Solved, moved: History, step: float, n_steps: int, kept: Recor
             kept.add(wake=wake.position(), tip_circulation=wake.marker_circulation())
         if k == n_steps:
             return
-        if not solver.begun:
-            solver.start(t, y, y_dot)
         solver.advance_to((first + k + 1) * step, inputs)
         y = solver.state
         if wake is not None:
