@@ -158,7 +158,7 @@ def draw(house: House, path: Path) -> None:
     height = max(y for _, y in places.values()) + 1.0
     figure, axes = plt.subplots(figsize=(1.15 * width + 0.6, 0.78 * height + 0.4))
     colours = {"python": ("#e8f0fa", "#2b5d94"), "border": ("#f3e9d2", "#8a6d1f"), "rust": ("#f8e4dc", "#a2431b")}
-    for corners in routes.values():
+    for _, corners in sorted(routes.items()):
         axes.add_patch(
             FancyArrowPatch(
                 path=_curve(corners, Line),
@@ -183,7 +183,7 @@ def draw(house: House, path: Path) -> None:
                 },
                 zorder=2,
             )
-    for room, (x, y) in places.items():
+    for room, (x, y) in sorted(places.items()):
         kind = "border" if room == "_core" else ("rust" if room.endswith(" ") else "python")
         face, edge = colours[kind]
         box = FancyBboxPatch(

@@ -196,7 +196,6 @@ LONG: set[str] = set()
 CIRCLES = (
     {"flight_monitors", "recorder"},
     {"trim", "trim_monitors", "trim_results"},
-    {"blade::loads", "blade::model", "blade::rigid"},
 )
 KINDS = {
     "python/wakeflight/cli/__init__.py": 1,
