@@ -7,7 +7,8 @@ use super::instant::RotorInstant;
 use super::motion::{BladeState, HubMotion};
 use super::options::{MarchingOptions, WakeOptions};
 use super::relaxation::{RelaxationWake, tip_rows};
-use super::vectors::{difference, mean};
+use super::stencils::{Cell, corrector_velocity, predicted_corner, unknown_corner};
+use super::vectors::difference;
 use super::velocity_field::{FieldWork, InducedVelocity, Induction, Wanted, field_at, point_velocity};
 use std::f64::consts::TAU;
 
@@ -153,25 +154,26 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
         let Work { field, next, carrier, unknown, at_new } = work;
         let (options, own, velocity) = (&self.options, self.own, &self.velocity);
 
+        let step = options.delta_psi() / options.rotor.omega;
+        let old = |i: usize| [velocity[i], velocity[i + 1]];
+
         // predictor: both ends of the segment at the old level
         let predictor = match own.predictor {
             Predictor::Same => own.scheme,
             Predictor::Central => Scheme::Pcc,
         };
-        self.march(predictor, next, carrier, |i| mean(velocity[i], velocity[i + 1]), unknown);
+        let predicted = |cell: &Cell, i: usize| predicted_corner(predictor, cell, step, old(i));
+        self.march(next, carrier, predicted, unknown);
         self.place_markers(next, carrier, unknown);
         self.guard(next)?;
 
         let wanted = Wanted { markers: Some((&hub, &mut *at_new)), ..Wanted::default() };
         evaluations += field_at(&self.field, options, next, field, wanted);
-        let new = |i: usize| mean(at_new[i], at_new[i + 1]);
-        match own.scheme {
-            Scheme::Bdf2 => self.march(own.scheme, next, carrier, new, unknown),
-            Scheme::Pcc | Scheme::Pc2b => {
-                let both = |i: usize| mean(mean(velocity[i], velocity[i + 1]), new(i));
-                self.march(own.scheme, next, carrier, both, unknown);
-            }
-        }
+        let corrected = |cell: &Cell, i: usize| {
+            let velocity = corrector_velocity(own.scheme, cell, old(i), [at_new[i], at_new[i + 1]]);
+            unknown_corner(own.scheme, cell, velocity.map(|v| v * step))
+        };
+        self.march(next, carrier, corrected, unknown);
         self.place_markers(next, carrier, unknown);
         let max_displacement = self.guard(next)?;
         let odd_even = self.odd_even(unknown);

@@ -1,14 +1,14 @@
 //! The new level of a step: what travels moves on, blades release anew, markers advance and are looked at.
 
 use super::{TimeMarchingWake, Work};
-use crate::wake::choices::{Form, Scheme};
+use crate::wake::choices::Form;
 use crate::wake::error::WakeError;
 use crate::wake::filament::{aged_core_squared, distance, stretched_core_squared};
 use crate::wake::geometry::release_points;
 use crate::wake::inboard_sheet;
 use crate::wake::instant::RotorInstant;
 use crate::wake::motion::{BladeState, HubMotion};
-use crate::wake::stencils::{Cell, unknown_corner};
+use crate::wake::stencils::Cell;
 use crate::wake::vectors::{difference, mean, sum};
 use crate::wake::velocity_field::InducedVelocity;
 
@@ -55,23 +55,20 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
         }
     }
 
-    /// Unknown at the new level by `scheme` into `new`; `velocity(i)` is the mean V of the cell whose marker k is `i` [m/s].
+    /// Unknown at the new level into `new`; `corner` gives that of a cell whose marker k is the one of the index.
     pub(super) fn march(
         &self,
-        scheme: Scheme,
         next: &RotorInstant,
         carrier: &[[f64; 3]],
-        velocity: impl Fn(usize) -> [f64; 3],
+        corner: impl Fn(&Cell, usize) -> [f64; 3],
         new: &mut Vec<[f64; 3]>,
     ) {
         let [now, past, older] = &self.levels;
-        let scale = self.options.delta_psi() / self.options.rotor.omega;
         new.resize(now.len(), [0.0; 3]);
         for filament in 0..next.free.n_filaments {
             let m = next.free.marker(filament, 0);
             new[m] = difference(next.free.position[m], carrier[m]);
             for i in m..m + self.options.n_segments() {
-                let advance = velocity(i).map(|v| v * scale);
                 let cell = Cell {
                     b: now[i + 1],
                     c: new[i],
@@ -80,8 +77,9 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
                     f: past[i],
                     g: older[i + 1],
                     h: older[i],
+                    i: (i > m).then(|| past[i - 1]),
                 };
-                new[i + 1] = unknown_corner(scheme, &cell, advance);
+                new[i + 1] = corner(&cell, i);
             }
         }
     }
