@@ -1,42 +1,13 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""The monitors of a flight: of every sample while it flies, and of the whole once it has ended."""
+"""The monitors of a flight, of all that was recorded."""
 
 from __future__ import annotations
 
-import math
-from typing import TYPE_CHECKING
-
 import numpy as np
 
-from .errors import NumericalFailure
 from .limits import stall_along_span, table_end
-from .model import Model
 from .monitors import Monitor, Places, airframe, rotor
-
-if TYPE_CHECKING:
-    from .recorder import Recorder
-
-
-def check_sample(
-    model: Model, t: float, y: np.ndarray, stick: np.ndarray, azimuth: np.ndarray, inflow: np.ndarray, mach: np.ndarray
-) -> None:
-    """End the flight at a sample that the motion of the rotor cannot give; inflow and mach (n_blades, n_stations)."""
-    bounds = model.bounds
-    u, v, w, p, q, r = y[:6].tolist()
-    speed, rate = math.sqrt(u * u + v * v + w * w), math.sqrt(p * p + q * q + r * r)
-    largest = max(inflow.max(), -inflow.min())
-    # within these in any motion: no need to look closer
-    if largest <= bounds.least_inflow and mach.max() <= bounds.least_mach(speed, rate):
-        return
-    places = Places(bounds.station, azimuth[None], np.array([t]))
-    velocity = np.asarray(model.core.hub(y)[0]) / model.tip_speed
-    theta = model.pitch_controls(stick)[[2, 0, 1]]
-    _, bound = bounds.inflow(velocity, theta)
-    fastest = bounds.mach(speed, rate, bounds.section(velocity, theta))
-    if largest > bound:
-        raise NumericalFailure(rotor.beyond_motion(largest, bound, places.of(np.abs(inflow)[None])))
-    if mach.max() > fastest:
-        raise NumericalFailure(rotor.faster_than_motion(mach.max(), fastest, places.of(mach[None])))
+from .recorder import Recorder
 
 
 def monitors(run: Recorder) -> tuple[Monitor, ...]:

@@ -148,9 +148,7 @@ class House:
         left_out = ("results", "monitors", "dataset", "table", "solved")
         patterns = (
             "tunnel/*.py",
-            "trim*.py",
             "trim/*.py",
-            "wake_trim.py",
             "exchange.py",
             "fly.py",
             "flight.py",

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from ..errors import InputError, NumericalFailure
 from ..inflow import DynamicInflow
 from ..progress import Progress, Silent
+from ..trim.equations import trim_problem
 from .annular import check_axial, on_annuli
 from .condition import (
     StandCondition,
@@ -132,8 +133,8 @@ def tunnel(
     simple, wake = _compiled(rotor, condition, model, n_harmonics, sections)
     progress.phase("rotor on the stand", None)
     try:
-        if wake is not None and wake.is_annular:
-            found = on_annuli(wake, with_dynamic_inflow(simple), progress)
+        if wake is not None and wake.inflow.is_annular:
+            found = on_annuli(wake, with_dynamic_inflow(simple, progress), progress)
         else:
             found = solution(simple, wake, options, progress)
     except NumericalFailure as reason:
@@ -230,7 +231,7 @@ def _compiled(
         simple = StandModel.build(rotor, condition, dynamic, n_harmonics, windmill=windmill)
         if rotor.flexible and not rotor.fixed_reference_pitch:
             # modes at the pitch the blade will have, where the file does not say
-            guess = first_guess(simple, simple.problem(None))[0]
+            guess = first_guess(simple, trim_problem(simple, None))[0]
             rotor = rotor.with_reference_pitch(guess)
             simple = StandModel.build(rotor, condition, dynamic, n_harmonics, windmill=windmill)
         if dynamic is model:

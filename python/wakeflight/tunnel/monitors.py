@@ -7,7 +7,7 @@ import numpy as np
 
 from ..limits import stall_along_span, table_end
 from ..monitors import Monitor, Places, rotor
-from ..trim_monitors import closest_vortex
+from ..trim.monitors import closest_vortex
 from .solved import Solved
 
 
@@ -67,5 +67,5 @@ def _why(stand: Solved, mu: float, stalled: Monitor) -> str:
 
 def _axial(stand: Solved, mu: float, mu_z: float) -> Monitor:
     """Axial flow; the stand's Dataset has mu_z of its own."""
-    momentum = stand.model.is_dynamic or stand.model.is_annular
+    momentum = stand.model.is_dynamic or stand.model.inflow.is_annular
     return rotor.axial_flow(mu, mu_z, stand.ct, momentum)

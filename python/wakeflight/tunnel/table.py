@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..trim_results import HORSEPOWER
+from ..trim.table import HORSEPOWER
 from .dataset import scatter
 from .solved import Solved
 

@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from . import _core
-from .limits import in_vortex_ring, momentum_inflows, stall_along_span, stalled, sticks_beyond
-from .model import Model
-from .monitors.rotor import SLOW, STALLED_SHARE
-from .trim_equations import INCH
+from .. import _core
+from ..limits import in_vortex_ring, momentum_inflows, stall_along_span, stalled, sticks_beyond
+from ..model import Model
+from ..monitors.rotor import SLOW, STALLED_SHARE
+from .equations import INCH
 
 TAIL_LOADING = 0.15
 """C_T/sigma of a tail rotor, a mean lift coefficient of 0.9, beyond which its thrust formula knows no stall but blades do."""

@@ -3,29 +3,22 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
-from .limits import stall_along_span, table_end
-from .model import CompiledRotor
-from .monitors import Monitor, Places, airframe, rotor, vortices
-from .trim_limits import TAIL_LOADING, tail_flow, tail_in_vortex_ring, tail_loading
-from .trim_results import instants, mean_outputs
-
-if TYPE_CHECKING:
-    from .trim import Trim
-    from .wake_trim import WakeInTrim
+from ..limits import stall_along_span, table_end
+from ..model import CompiledRotor
+from ..monitors import Monitor, Places, airframe, rotor, vortices
+from .limits import TAIL_LOADING, tail_flow, tail_in_vortex_ring, tail_loading
+from .solved import Solved
+from .wake import WakeInTrim
 
 
-def monitors(start: Trim) -> tuple[Monitor, ...]:
+def monitors(start: Solved) -> tuple[Monitor, ...]:
     """Everything that is watched of a trim."""
-    model, mean = start.model, mean_outputs(start)
+    model, mean = start.model, start.mean_outputs()
     tables = model.rotor_tables["airfoil"]
     places = disk_places(model, start.inflow_map.shape[0])
-    alpha, mach = np.empty_like(start.inflow_map), np.empty_like(start.inflow_map)
-    for rows, out in instants(start):
-        alpha[rows], mach[rows] = out["alpha"], out["mach"]
+    alpha, mach = start.maps("alpha", "mach").values()
     y = start.state()
     velocity = np.asarray(model.core.hub(y)[0]) / model.tip_speed
     mu, mu_z = mean["mu"], -float(velocity[2])

@@ -11,10 +11,9 @@ from typing import Any
 
 import numpy as np
 
-from . import _core
-from .errors import InputError
-from .exchange import MarchingExchange
-from .model import CompiledRotor
+from .. import _core
+from ..errors import InputError
+from ..model import CompiledRotor
 
 CONTROL_TOLERANCE = 1e-3
 """Change of a pitch control [rad] between trims on a free wake at which they rest."""
@@ -140,12 +139,3 @@ class WakeInTrim:
                 f"moves by {moved:.1e} between passes (allowed {tolerance:.1e})"
             )
         return texts
-
-    def marching(self, model: CompiledRotor) -> MarchingExchange:
-        """A time-marching wake of `model` started from this one."""
-        return MarchingExchange(model, self)
-
-
-def marching_map(march: MarchingExchange, problem: Any, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Inflow and circulation maps (n, n_stations) of one revolution marched at the trimmed motion."""
-    return march.turn(problem, x)
