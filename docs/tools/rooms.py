@@ -24,7 +24,7 @@ ROOMS = {
     "report": ("report",),
     "plotting": ("plotting",),
     "export": ("export",),
-    "flight": ("flight*", "recorder", "simulation", "snapshot", "integrators"),
+    "flight": ("flight*", "recorder", "simulation", "stepping", "snapshot", "integrators"),
     "tunnel": ("tunnel",),
     "trim": ("trim",),
     "exchange": ("exchange",),

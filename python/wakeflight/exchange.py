@@ -138,17 +138,6 @@ class Exchange:
         """Inflow without that of the own near wake (n_blades, n_stations)."""
         return self.core.lambda_far
 
-    def advance(
-        self,
-        y: np.ndarray,
-        stick: np.ndarray,
-        stick_rate: np.ndarray,
-        motion: tuple[np.ndarray, np.ndarray] | None = None,
-    ) -> np.ndarray:
-        """`reach` the next step; returns the total inflow (n_blades, n_stations)."""
-        self.reach(self.step_index + 1, y, stick, stick_rate, motion)
-        return self.inflow
-
     def turn(self, problem: Any, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """A revolution with states and controls of the trim, circulation following the inflow.
 
@@ -160,9 +149,9 @@ class Exchange:
     def frozen_step(self, problem: Any, x: np.ndarray) -> tuple[list[int], np.ndarray, np.ndarray]:
         """One such step: azimuth index of every blade, its inflow and circulation."""
         (q, q_dot), y = self._trimmed(problem, x)
-        rows = self.rows(self.step_index + 1)
-        controls = x[: self.model.n_controls]
-        self.advance(y, controls, np.zeros(len(controls)), (q[rows], q_dot[rows]))
+        step = self.step_index + 1
+        rows = self.rows(step)
+        self.reach(step, y, x, np.zeros_like(x), (q[rows], q_dot[rows]))
         return rows, self.inflow, self.circulation
 
     def _trimmed(self, problem: Any, x: np.ndarray) -> tuple[tuple[np.ndarray, np.ndarray], np.ndarray]:

@@ -17,7 +17,8 @@ from .monitors import Monitor, Places, rotor, variables
 if TYPE_CHECKING:
     import xarray as xr
 
-    from .simulation import ConvergencePhase, Instant, Simulation
+    from .simulation import ConvergencePhase, Simulation
+    from .stepping import Instant
 
 SNAPSHOTS_PER_REVOLUTION = 4
 LARGEST_SHEET = 5_000_000  # numbers; larger lattices of full-span wakes are not kept

@@ -40,7 +40,7 @@ PYTHON_ORDER = (
     {"aircraft", "thinning"},
     {"model", "modes"},
     {"integrators", "exchange"},
-    {"trim"},
+    {"trim", "stepping"},
     {"simulation"},
     {"recorder"},
     {"flight_monitors"},

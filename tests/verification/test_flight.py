@@ -9,7 +9,8 @@ from wakeflight.exchange import Exchange
 from wakeflight.flight import Sticks
 from wakeflight.integrators import IdaIntegrator, consistent_rate
 from wakeflight.model import Model
-from wakeflight.simulation import coupling_inputs, flight_model
+from wakeflight.simulation import flight_model
+from wakeflight.stepping import coupling_inputs
 
 STILL = wf.Maneuver("hands off", (("lateral", ((0.0, 0.0), (1.0, 0.0))),), seconds=1.0)
 

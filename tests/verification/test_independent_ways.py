@@ -10,7 +10,8 @@ import wakeflight as wf
 from wakeflight.exchange import Exchange
 from wakeflight.flight import Sticks
 from wakeflight.integrators import IdaIntegrator, absolute_tolerances, consistent_rate
-from wakeflight.simulation import coupling_inputs, flight_model
+from wakeflight.simulation import flight_model
+from wakeflight.stepping import coupling_inputs
 
 
 @pytest.mark.parametrize("method", ["BDF", "Radau"])

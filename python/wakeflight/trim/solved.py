@@ -17,6 +17,7 @@ from ..model import Model
 from ..units import STANDARD_GRAVITY
 from .equations import INCH, residual_norms
 from .on_wake import Solution
+from .revolution import inputs, instants
 
 PITCH_CONTROLS = ("theta_1c", "theta_1s", "theta_0", "theta_tr")
 
@@ -144,19 +145,12 @@ class Solved(Solution):
 
     def inputs(self, t: float = 0.0) -> _core.Inputs:
         """Sticks and inflow that hold the trim at `t` [s]: the map at each blade's azimuth, or the inflow states."""
-        model, n = self.model, self.inflow_map.shape[0]
-        held, mean = None, 0.0
-        if not model.inflow.is_dynamic:
-            held, mean = (
-                self.inflow_map[self._rows(round(model.omega * t / (2 * np.pi) * n))],
-                model.disk_mean(self.inflow_map),
-            )
-        return _core.Inputs(self.x[:4], np.zeros(4), 0.0, held, mean, self.stabilator_incidence)
+        return inputs(self.model, self.problem, self.x, self._held, t)
 
-    def _rows(self, first: int) -> list[int]:
-        """Azimuth index of every blade where that of the first is `first`."""
-        n, n_blades = self.inflow_map.shape[0], self.model.n_blades
-        return [(first + b * n // n_blades) % n for b in range(n_blades)]
+    @property
+    def _held(self) -> np.ndarray | None:
+        """The inflow map; None where inflow is in the state."""
+        return None if self.inflow.is_dynamic else self.inflow_map
 
     @property
     def counters(self) -> dict[str, int]:
@@ -165,13 +159,7 @@ class Solved(Solution):
 
     def instants(self) -> list[tuple[list[int], dict[str, Any]]]:
         """Outputs over the angle between two blades: every azimuth is passed once; with the azimuth index of every blade."""
-        n, core = self.inflow_map.shape[0], self.model.core
-        records = []
-        for k in range(n // self.model.n_blades):
-            t = 2 * np.pi * k / n / self.model.omega
-            y, y_dot = core.trim_state(self.problem, self.x, t)
-            records.append((self._rows(k), core.outputs(t, y, y_dot, self.inputs(t))))
-        return records
+        return instants(self.model, self.problem, self.x, self._held)
 
     def maps(self, *names: str) -> dict[str, np.ndarray]:
         """Section quantities `names` of the outputs by azimuth and station, like `inflow_map`."""

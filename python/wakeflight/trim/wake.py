@@ -35,11 +35,7 @@ class WakeInTrim:
             raise InputError(f"wake: {reason}") from reason
         self.n = model.steps_per_revolution
         self.psi = 2 * np.pi * np.arange(self.n) / self.n
-        self.counters = {
-            "relaxation_iterations": 0,
-            "wake_segment_evaluations": 0,
-            "circulation_followed": 0,
-        }
+        self.counters = dict.fromkeys(("relaxation_iterations", "circulation_followed", "wake_segment_evaluations"), 0)
 
     def __getstate__(self) -> dict[str, Any]:
         """The core's state by value."""
@@ -48,11 +44,6 @@ class WakeInTrim:
     def __setstate__(self, state: dict[str, Any]) -> None:
         """The core's state made again."""
         self.__dict__.update(state | {"core": _core.SteadyWake.from_bytes(state["core"])})
-
-    @property
-    def lambda_far(self) -> np.ndarray:
-        """Far inflow (n, n_stations)."""
-        return self.core.lambda_far
 
     @property
     def circulation(self) -> np.ndarray:
@@ -93,10 +84,7 @@ class WakeInTrim:
             self.core.converge(core, y, x[: self.model.n_controls], motion, self.model.inflow.max_loops)
         except ValueError as reason:
             raise InputError(f"wake: {reason}") from reason
-        sweeps, followed, evaluations = self.core.counters
-        self.counters["relaxation_iterations"] = sweeps
-        self.counters["circulation_followed"] = followed
-        self.counters["wake_segment_evaluations"] = evaluations
+        self.counters = dict(zip(self.counters, self.core.counters, strict=True))
         return self.inflow_map
 
     @property

@@ -97,8 +97,3 @@ class StandModel(CompiledRotor):
     def dynamic_pressure_area(self) -> float:
         """rho pi R^2 (Omega R)^2 [N]: a force over it is its coefficient."""
         return self.condition.density * np.pi * self.rotor["radius"] ** 2 * self.tip_speed**2
-
-    @property
-    def is_dynamic(self) -> bool:
-        """Whether the inflow has states of its own: no map of it is held."""
-        return self.inflow.is_dynamic

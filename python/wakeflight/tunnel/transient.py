@@ -14,7 +14,7 @@ from ..exchange import Exchange
 from ..integrators import FixedIntegrator
 from ..monitors import Places, failures, rotor
 from ..progress import Progress, Silent
-from ..simulation import Instant, Stepping
+from ..stepping import Instant, Stepping
 from ..units import quantity
 from .condition import within
 from .solved import Solved
@@ -158,7 +158,7 @@ def transient(
     from ..results import assemble_transient
 
     solution, model = stand.solution, stand.model
-    if solution.march is None and not model.is_dynamic:
+    if solution.march is None and not model.inflow.is_dynamic:
         raise InputError.of("inflow", model.inflow.name, "a transient needs inflow time-marching or dynamic")
     if model.aircraft.discretisation.n_modes and not model.n_harmonics:
         raise InputError.of("n_harmonics", model.n_harmonics, "must be above 0")
