@@ -205,7 +205,7 @@ class FixedIntegrator:
         self.model, self.rtol, self.parts = model, rtol, parts
         self.explicit = not model.flexible
         self.atol = atol_scale * absolute_tolerances(model)
-        self._solver: _core.FixedStep | _core.ExplicitStep | None = None
+        self._solver: _core.FixedStep | None = None
         self._y: np.ndarray | None = None
 
     @property
@@ -236,7 +236,7 @@ class FixedIntegrator:
     def _begin(self, t: float, y: np.ndarray) -> None:
         core = self.model.core
         if self.explicit:
-            self._solver = _core.ExplicitStep(core, t, y, self.rtol, self.atol)
+            self._solver = _core.FixedStep.explicit(core, t, y, self.rtol, self.atol)
         else:
             self._solver = _core.FixedStep(core, t, y, self.rtol, self.atol, self.NEWTON_SHARE, np.radians(self.KEPT))
         self._y = y

@@ -51,11 +51,6 @@ class WakeInTrim:
         self.__dict__.update(state | {"core": _core.SteadyWake.from_bytes(state["core"])})
 
     @property
-    def lambda_far(self) -> np.ndarray:
-        """Far inflow (n, n_stations)."""
-        return self.core.lambda_far
-
-    @property
     def circulation(self) -> np.ndarray:
         """Bound circulation (n, n_stations) [m2/s]."""
         return self.core.circulation

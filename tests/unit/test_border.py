@@ -29,7 +29,7 @@ def calls(start):
     atol = np.full(n, 1e-6)
     return {
         "residual": (core.residual, (0.0, y, still, inputs, out)),
-        "jacobian": (core.jacobian, (0.0, y, still, inputs, 1.0, 1.0, matrix)),
+        "jacobian": (core.jacobian, (0.0, y, still, inputs, (1.0, 1.0), matrix)),
         "consistent_rate": (core.consistent_rate, (0.0, y, inputs)),
         "outputs": (core.outputs, (0.0, y, still, inputs)),
         "hub": (core.hub, (y,)),

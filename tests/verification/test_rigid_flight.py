@@ -38,7 +38,7 @@ def test_the_explicit_step_has_order_five(rigid):
     inputs = _core.Inputs(rigid.stick_si, np.zeros(4), 0.0, None, 0.0, 0.0, vacuum=True)
 
     def flown(n_steps):
-        solver = _core.ExplicitStep(core, 0.0, y, 1e-5, atol)
+        solver = _core.FixedStep.explicit(core, 0.0, y, 1e-5, atol)
         solver.advance(core, 0.5 * np.pi / model.omega, inputs, n_steps)
         assert solver.counters()[5] == 0
         return solver.state()

@@ -1,4 +1,4 @@
-//! Python bindings: conversions only.
+//! Python bindings: conversions and checks only.
 use pyo3::prelude::*;
 
 mod atmosphere;
@@ -17,17 +17,29 @@ mod wake;
 
 /// The compiled core of wakeflight.
 #[pymodule]
-fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
-    m.add("__version__", env!("CARGO_PKG_VERSION"))?;
-    atmosphere::register(m)?;
-    system::register(m)?;
-    blade::register(m)?;
-    flight::register(m)?;
-    exchange::register(m)?;
-    trim::register(m)?;
-    inflow::register(m)?;
-    options::register(m)?;
-    vortex::register(m)?;
-    wake::register(m)?;
-    Ok(())
+mod _core {
+    #[pymodule_export]
+    use crate::atmosphere::standard_atmosphere;
+    #[pymodule_export]
+    use crate::blade::BladeModes;
+    #[pymodule_export]
+    use crate::exchange::{PyExchange, PySteadyWake, carrying_inflow};
+    #[pymodule_export]
+    use crate::flight::{FixedStep, Linearised};
+    #[pymodule_export]
+    use crate::inflow::{momentum_inflow, pitt_peters_rate};
+    #[pymodule_export]
+    use crate::options::{check_options, option_descriptors};
+    #[pymodule_export]
+    use crate::system::{PyInputs, PySystem};
+    #[pymodule_export]
+    use crate::trim::{TrimLayout, TrimProblem};
+    #[pymodule_export]
+    use crate::vortex::{induced_velocity, set_threads};
+    #[pymodule_export]
+    use crate::wake::{RelaxationWake, TimeMarchingWake, near_wake_matrix, wing_circulation};
+
+    #[pymodule_export]
+    #[expect(non_upper_case_globals)]
+    const __version__: &str = env!("CARGO_PKG_VERSION");
 }

@@ -57,6 +57,14 @@ pub struct Counters {
     pub halvings: u64,
 }
 
+impl Counters {
+    /// Residual evaluations, Jacobians, factorisations, Newton iterations, steps, halvings.
+    pub fn all(&self) -> [u64; 6] {
+        let (found, solved) = (self.residual_evaluations, self.newton_iterations);
+        [found, self.jacobians, self.factorisations, solved, self.steps, self.halvings]
+    }
+}
+
 /// Where dF/dy was found: enough to find it again.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 struct Origin {
