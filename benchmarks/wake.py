@@ -167,7 +167,7 @@ def caradonna_tung() -> str:
         run = wf.tunnel(CARADONNA_TUNG, collective="8 deg", rpm=1250, inflow=kind(**options))
         wall, busy = time.perf_counter() - begun, time.process_time() - busy
         solved = run.solution
-        evaluations = solved.wake.relaxation.segment_evaluations
+        evaluations = solved.wake.counters["wake_segment_evaluations"]
         if solved.march is not None:
             evaluations += solved.march.segment_evaluations
         thrust = [turn.passages["aero_force"][..., 2].sum(axis=1).mean() for turn in solved.revolutions][-4:]

@@ -146,10 +146,8 @@ class IdaIntegrator:
 
     def _jacobian(self, t: float, y: np.ndarray, y_dot: np.ndarray, f: np.ndarray, c_j: float, out: np.ndarray) -> None:
         which = self._found(t)
-        if which == "dF/dy":
-            self._linearised.renew(self.model.core, t, y, y_dot, self._inputs)
-        elif which == "dF/dy_dot":
-            self._linearised.renew_mass(self.model.core, t, y, self._inputs)
+        if which is not None:
+            self._linearised.renew(self.model.core, (t, y), y_dot, self._inputs, which == "dF/dy")
         self._linearised.matrix(c_j, out)
 
     def advance_to(self, t: float, inputs: _core.Inputs) -> None:

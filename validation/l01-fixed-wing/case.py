@@ -50,8 +50,8 @@ def wing(ratio, n):
     at_rest = ([0.0, 0.0, 0.0], [0.0, 0.0, 0.0])
     text = json.dumps(options)
     tip_speed = rotor["omega"] * rotor["radius"]
-    matrix = _core.near_wake_matrix(text, at_rest, (0.0, 0.0, 0.0)) * tip_speed
-    edges, stations = _core.RelaxationWake(text, at_rest, 0.0).grid()
+    matrix, edges, stations = _core.near_wake_matrix(text, at_rest, (0.0, 0.0, 0.0))
+    matrix *= tip_speed
     # Gamma = c/2 2 pi (U alpha - w): the section's lift-curve slope is 2 pi
     circulation = np.linalg.solve(np.eye(n) + np.pi * matrix, np.full(n, np.pi))
     return edges - FAR, stations - FAR, circulation, matrix @ circulation

@@ -293,13 +293,3 @@ impl PyExchange {
         self.clone()
     }
 }
-
-/// Inflow of momentum theory over the tip speed for the thrust of a circulation map (n_azimuths, n_stations) [m2/s] at a hub
-/// velocity [m/s], hub axes: it carries the inboard sheet.
-#[pyfunction]
-pub fn carrying_inflow(core: &PySystem, circulation: Table, hub_velocity: [f64; 3]) -> PyResult<f64> {
-    let disk = core.inner.main().lifting_disk();
-    let rows = circulation.as_array().nrows();
-    let circulation = map("circulation", &circulation, rows, disk.stations.len())?;
-    Ok(disk.carrying_inflow(&circulation, hub_velocity))
-}

@@ -96,35 +96,31 @@ impl Linearised {
         Self(linearised::Linearised::new(&system.inner.layout))
     }
 
-    /// y_dot that satisfies F = 0 at (t, y), from the guess `y_dot`; linearises there (`renew`), or finds dF/dy_dot alone.
+    /// y_dot that satisfies F = 0 at (t, y), from the guess `y_dot`; finds dF/dy_dot there, and dF/dy (`whole`) or leaves that.
     fn consistent(
         &mut self,
         system: &PySystem,
         at: (f64, Row),
         y_dot: Row,
         inputs: &PyInputs,
-        renew: bool,
+        whole: bool,
     ) -> PyResult<Array> {
         let (y, mut rate) = (system.state("y", &at.1)?, system.state("y_dot", &y_dot)?.to_vec());
-        let inputs = inputs.fitting(system)?;
-        let solved = if renew {
-            self.0.consistent(&system.inner, (at.0, y), &mut rate, inputs)
-        } else {
-            self.0.consistent_by_mass(&system.inner, (at.0, y), &mut rate, inputs)
-        };
-        solved.map_err(failed)?;
+        let (system, inputs) = (&system.inner, inputs.fitting(system)?);
+        self.0.consistent(system, (at.0, y), &mut rate, inputs, whole).map_err(failed)?;
         Ok(array(rate, &[]))
     }
 
-    /// Linearises at (t, y, y_dot).
-    fn renew(&mut self, system: &PySystem, t: f64, y: Row, y_dot: Row, inputs: &PyInputs) -> PyResult<()> {
-        self.0.renew(&system.inner, &system.at(t, &y, &y_dot, inputs)?);
-        Ok(())
-    }
-
-    /// Finds dF/dy_dot at (t, y); dF/dy is left as it was.
-    fn renew_mass(&mut self, system: &PySystem, t: f64, y: Row, inputs: &PyInputs) -> PyResult<()> {
-        self.0.renew_mass(&system.inner, &system.at(t, &y, &y, inputs)?);
+    /// Finds dF/dy_dot at (t, y, y_dot), and dF/dy (`whole`) or leaves that as it was.
+    fn renew(
+        &mut self,
+        system: &PySystem,
+        at: (f64, Row),
+        y_dot: Row,
+        inputs: &PyInputs,
+        whole: bool,
+    ) -> PyResult<()> {
+        self.0.renew(&system.inner, &system.at(at.0, &at.1, &y_dot, inputs)?, whole);
         Ok(())
     }
 

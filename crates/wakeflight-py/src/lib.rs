@@ -9,7 +9,6 @@ mod exchange;
 mod flight;
 mod inflow;
 mod options;
-mod rotor;
 mod system;
 mod trim;
 mod vortex;
@@ -19,27 +18,19 @@ mod wake;
 #[pymodule]
 mod _core {
     #[pymodule_export]
-    use crate::atmosphere::standard_atmosphere;
-    #[pymodule_export]
-    use crate::blade::BladeModes;
-    #[pymodule_export]
-    use crate::exchange::{PyExchange, PySteadyWake, carrying_inflow};
-    #[pymodule_export]
-    use crate::flight::{FixedStep, Linearised};
-    #[pymodule_export]
-    use crate::inflow::{momentum_inflow, pitt_peters_rate};
-    #[pymodule_export]
-    use crate::options::{check_options, option_descriptors};
-    #[pymodule_export]
-    use crate::system::{PyInputs, PySystem};
-    #[pymodule_export]
-    use crate::trim::{TrimLayout, TrimProblem};
-    #[pymodule_export]
-    use crate::vortex::{induced_velocity, set_threads};
-    #[pymodule_export]
-    use crate::wake::{RelaxationWake, TimeMarchingWake, near_wake_matrix, wing_circulation};
-
-    #[pymodule_export]
     #[expect(non_upper_case_globals)]
     const __version__: &str = env!("CARGO_PKG_VERSION");
+    #[pymodule_export]
+    use crate::{
+        atmosphere::standard_atmosphere,
+        blade::BladeModes,
+        exchange::{PyExchange, PySteadyWake},
+        flight::{FixedStep, Linearised},
+        inflow::{momentum_inflow, pitt_peters_rate},
+        options::{check_options, option_descriptors},
+        system::{PyInputs, PySystem},
+        trim::{TrimLayout, TrimProblem},
+        vortex::{induced_velocity, set_threads},
+        wake::{RelaxationWake, TimeMarchingWake, near_wake_matrix, wing_circulation},
+    };
 }

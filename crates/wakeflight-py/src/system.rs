@@ -1,7 +1,6 @@
 //! The system: F, its Jacobian, trim equations, what a run records.
 
 use crate::checks::{Array, Named, Room, Row, Table, array, failed, invalid, room, sized};
-use crate::rotor::rotor_constants;
 use crate::trim::{TrimLayout, TrimProblem};
 use numpy::Ix2;
 use pyo3::prelude::*;
@@ -113,7 +112,29 @@ impl PySystem {
 
     /// Constants of the rotor that the coupling and the results need.
     fn rotor<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        rotor_constants(py, self.inner.main())
+        let (d, r) = (PyDict::new(py), self.inner.main());
+        d.set_item("omega", r.omega)?;
+        d.set_item("radius", r.blade.radius)?;
+        d.set_item("hinge_offset", r.hinge())?;
+        d.set_item("n_blades", r.n_blades)?;
+        d.set_item("rigid", r.blade.rigid.is_some())?;
+        d.set_item("solidity", r.solidity())?;
+        d.set_item("hand", r.sense.hand())?;
+        d.set_item("flap_mode", r.blade.flap_mode)?;
+        d.set_item("flap_per_coordinate", r.flap_per_coordinate())?;
+        d.set_item("blade_mass", r.blade.mass)?;
+        d.set_item("stations", r.blade.stations.iter().map(|s| s.shapes.x).collect::<Vec<_>>())?;
+        d.set_item("widths", r.blade.stations.iter().map(|s| s.geometry.width).collect::<Vec<_>>())?;
+        d.set_item("area_weights", r.disk_mean().weights())?;
+        d.set_item("chords", r.blade.stations.iter().map(|s| s.geometry.chord).collect::<Vec<_>>())?;
+        let n = r.blade.n_modes;
+        d.set_item("angle_per_coordinate", (0..n).map(|i| r.angle_per_coordinate(i)).collect::<Vec<_>>())?;
+        d.set_item("frequencies", &r.blade.modes.frequency[..n])?;
+        d.set_item("tip_flap", &r.blade.tip.w[0][..n])?;
+        d.set_item("tip_lead", &r.blade.tip.v[0][..n])?;
+        d.set_item("tip_twist", &r.blade.tip.theta[..n])?;
+        d.set_item("root_lead_slope", &r.blade.root.v[1][..n])?;
+        Ok(d)
     }
 
     /// F into `out`.

@@ -3,6 +3,7 @@
 use crate::checks::{Array, Row, Table, array, columns, failed, invalid, vectors};
 use crate::options::{marching_options, relaxation_options, wake_options};
 use pyo3::prelude::*;
+use wakeflight::wake::geometry::BladeGrid;
 use wakeflight::wake::lifting_surface::{self, ControlLine};
 use wakeflight::wake::{self, BladeState, HubMotion, Induction, LinearField, WakeError};
 
@@ -18,13 +19,18 @@ fn motion((velocity, rates): Hub) -> HubMotion {
     HubMotion { velocity, rates }
 }
 
-/// Matrix N (n_stations, n_stations) [s/m2]: inflow of the near wake of the own blade, lambda_i = sum_j N_ij Gamma_j; `blade`:
-/// azimuth, flap, lead [rad].
+/// Matrix N (n_stations, n_stations) [s/m2]: inflow of the near wake of the own blade, lambda_i = sum_j N_ij Gamma_j, and the edges
+/// (n_stations + 1) and stations [m] of the bound elements; `blade`: azimuth, flap, lead [rad].
 #[pyfunction]
-pub fn near_wake_matrix(options_json: &str, hub: Hub, blade: (f64, f64, f64)) -> PyResult<Array> {
+pub fn near_wake_matrix(
+    options_json: &str,
+    hub: Hub,
+    blade: (f64, f64, f64),
+) -> PyResult<(Array, Array, Array)> {
     let (options, (psi, flap, lead)) = (wake_options(options_json)?, blade);
     let found = wake::near_wake_matrix(&options, &motion(hub), &BladeState { psi, flap, lead });
-    Ok(array(found.map_err(py_error)?, &[options.n_stations]))
+    let (matrix, grid) = (found.map_err(py_error)?, BladeGrid::new(&options));
+    Ok((array(matrix, &[options.n_stations]), array(grid.edges, &[]), array(grid.stations, &[])))
 }
 
 /// Circulation over speed (n) [m] of a flat wing: edges (n + 1), stations, chords (n) [m], angle of attack [rad]; control points at
@@ -108,17 +114,6 @@ impl RelaxationWake {
     /// Circulation of the trailers released at every azimuth, root to tip (n_azimuths, n_trailers) [m2/s].
     fn released_circulation(&self) -> Array {
         array(self.0.released_circulation(), &self.rows()[..1])
-    }
-
-    /// Edges (n_stations + 1) and stations (n_stations) of the bound elements [m].
-    fn grid(&self) -> (Array, Array) {
-        (array(&self.0.grid().edges[..], &[]), array(&self.0.grid().stations[..], &[]))
-    }
-
-    /// Segment evaluations so far.
-    #[getter]
-    fn segment_evaluations(&self) -> u64 {
-        self.0.segment_evaluations()
     }
 }
 

@@ -1,10 +1,13 @@
-//! With a periodic motion held, the exchange adds nothing to a marching wake that stands alone, to the bit.
+//! The exchange with a periodic motion held: it adds nothing to a marching wake that stands alone, to the bit, and the thrust of
+//! the blades carries the sheet.
 
 mod mechanics_support;
 
 use mechanics_support::beam_support::uh60a;
 use mechanics_support::*;
 use wakeflight::blade::kinematics::ModalMotion;
+use wakeflight::blade::loads as blade;
+use wakeflight::inflow::pitt_peters::momentum_inflow;
 use wakeflight::rotor::circulation::BladeInstant;
 use wakeflight::rotor::exchange::{MarchingExchange, Place, SteadyWake, azimuth, row};
 use wakeflight::system::model::System;
@@ -42,17 +45,61 @@ fn periodic(system: &System, n: usize) -> Vec<BladeInstant> {
     system.periodic_blades(&(0..n).map(motion).collect::<Vec<_>>(), [0.13, 0.14, 0.12, 0.06])
 }
 
+/// The rotor on a stand in forward flight, and its relaxed wake for a periodic motion.
+struct Relaxed {
+    system: System,
+    options: WakeOptions,
+    blades: Vec<BladeInstant>,
+    hub: blade::HubMotion<f64>,
+    steady: SteadyWake,
+}
+
+impl Relaxed {
+    fn new() -> Self {
+        let data = aircraft_data(uh60a(), data_files::airfoil("sc1095", 0.002));
+        let system = on_stand(&data, true);
+        let options = options(&system);
+        let n = options.steps_per_revolution();
+        let (blades, hub) = (periodic(&system, n), system.steady_hub(&vec![0.0; system.layout.len()]));
+        let map = vec![0.03; n * options.n_stations];
+        let mut steady = SteadyWake::new(options, RelaxationOptions::default(), false, system.main(), map);
+        let place = Place { rotor: system.main(), air: system.air, hub: &hub };
+        steady.converge(&place, &blades, 5).unwrap();
+        Self { system, options, blades, hub, steady }
+    }
+}
+
+#[test]
+fn the_sheet_is_carried_by_the_thrust_of_the_blades() {
+    // the loads of the same blades in the same inflow, by momentum theory; twice the circulation, twice the inflow
+    let Relaxed { system, blades, hub, steady, .. } = Relaxed::new();
+    let (rotor, width) = (system.main(), steady.width());
+    let rows = blades.iter().zip(steady.inflow.chunks_exact(width));
+    let passages = rows.map(|(blade, row)| (*blade, rotor.held_inflow(row)));
+    let [_, _, aero_force, _] = rotor.passages(system.air, &hub, passages).loads;
+    let lift: f64 = aero_force.chunks_exact(3).map(|f| f[2]).sum::<f64>() / blades.len() as f64;
+    let disk = std::f64::consts::PI * rotor.blade.radius.powi(2);
+    let ct = rotor.n_blades as f64 * lift / (system.air.density * disk * rotor.tip_speed().powi(2));
+    let velocity = hub.velocity.array();
+    let mu = velocity[0].hypot(velocity[1]) / rotor.tip_speed();
+    let carrying = |share: f64| {
+        let circulation: Vec<f64> = steady.circulation.iter().map(|gamma| share * gamma).collect();
+        rotor.lifting_disk().carrying_inflow(&circulation, velocity)
+    };
+    let (once, twice) = (carrying(1.0), carrying(2.0));
+    assert!(ct > 0.003, "{ct}");
+    assert!(
+        (once - momentum_inflow(ct, mu * mu, -velocity[2] / rotor.tip_speed())).abs() < 0.03 * once,
+        "{ct} {once}"
+    );
+    assert!((twice - 2.0 * once).abs() < 0.05 * twice, "{once} {twice}");
+}
+
 #[test]
 fn the_exchange_adds_nothing_to_the_wake_that_stands_alone() {
-    let data = aircraft_data(uh60a(), data_files::airfoil("sc1095", 0.002));
-    let system = on_stand(&data, true);
-    let (rotor, options) = (system.main(), options(&system));
-    let n = options.steps_per_revolution();
-    let (blades, hub) = (periodic(&system, n), system.steady_hub(&vec![0.0; system.layout.len()]));
+    let Relaxed { system, options, blades, hub, steady } = Relaxed::new();
+    let (rotor, n) = (system.main(), options.steps_per_revolution());
     let place = Place { rotor, air: system.air, hub: &hub };
-    let map = vec![0.03; n * options.n_stations];
-    let mut steady = SteadyWake::new(options, RelaxationOptions::default(), false, rotor, map);
-    steady.converge(&place, &blades, 3).unwrap();
     let start = steady.wake.as_ref().unwrap();
     let marching = || TimeMarchingWake::from_relaxation(start, 0, MarchingOptions::default()).unwrap();
     let (mut exchange, mut alone) = (MarchingExchange::new(marching(), &steady, rotor), marching());
