@@ -40,8 +40,8 @@ def derivatives(blades: str, repetitions: int) -> list[list[str]]:
 
     timed = {
         f"residual of {n} states": lambda: model.core.residual(0.0, y, y_dot, inputs, out),
-        "exact Jacobian": lambda: model.core.jacobian(0.0, y, y_dot, inputs, 1.0, 100.0, matrix),
-        "dF/dy_dot alone": lambda: room.renew_mass(model.core, 0.0, y, inputs),
+        "exact Jacobian": lambda: model.core.jacobian(0.0, y, y_dot, inputs, (1.0, 100.0), matrix),
+        "dF/dy_dot alone": lambda: room.renew(model.core, (0.0, y), y_dot, inputs, False),
     }
     medians = {name: seconds(call, repetitions)[0] for name, call in timed.items()}
     medians["the Jacobian by one-sided differences"] = seconds(by_differences, max(3, repetitions // 20))[0]

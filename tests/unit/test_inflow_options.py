@@ -10,6 +10,7 @@ import pydoc
 import numpy as np
 import pytest
 
+from wakeflight import _core
 from wakeflight.aircraft import load_aircraft
 from wakeflight.condition import FlightCondition
 from wakeflight.errors import InputError
@@ -202,18 +203,12 @@ def test_options_that_do_not_go_together_are_refused_when_the_model_is_made():
 def test_another_rotors_options_are_refused(uh60a):
     model = Model.build(uh60a, FlightCondition().completed(uh60a), RelaxationWake())
     options = json.loads(model.wake_options)
-    far = np.zeros((1, 20))
-    motion = np.zeros((1, len(model.rotor["frequencies"])))
+    n, modes = model.steps_per_revolution, len(model.rotor["frequencies"])
+    y = np.zeros(len(model.core.state_names()))
 
     def solve():
-        return model.core.solve_circulation(
-            json.dumps(options),
-            np.zeros(len(model.core.state_names())),
-            (np.full(4, 0.1), np.zeros(4)),
-            np.zeros(1),
-            (motion, motion),
-            (far, far),
-        )
+        wake = _core.SteadyWake(model.core, json.dumps(options), False, np.full((n, 20), 0.02))
+        wake.converge(model.core, y, np.full(4, 0.1), (np.zeros((n, modes)), np.zeros((n, modes))), 1)
 
     for name, value in (("radius", 7.0), ("n_blades", 5), ("hinge_offset", 0.1), ("omega", 30.0), ("root_cutout", 1.0)):
         kept, options["rotor"][name] = options["rotor"][name], value

@@ -39,8 +39,8 @@ def test_ida_agrees_with_another_implicit_solver_over_a_quarter_of_a_revolution(
     def jacobian(t, y, y_dot, *_):
         by_y, by_rate = np.empty((y.size, y.size)), np.empty((y.size, y.size))
         held = (t, np.ascontiguousarray(y), np.ascontiguousarray(y_dot), inputs)
-        model.core.jacobian(*held, 1.0, 0.0, by_y)
-        model.core.jacobian(*held, 0.0, 1.0, by_rate)
+        model.core.jacobian(*held, (1.0, 0.0), by_y)
+        model.core.jacobian(*held, (0.0, 1.0), by_rate)
         return by_y, by_rate
 
     atol = absolute_tolerances(model)

@@ -92,8 +92,8 @@ def closest_vortex(model: CompiledRotor, wake: WakeInTrim) -> float:
     radius, blade = model.rotor["radius"], model.rotor_tables["blade"]
     step = 2 * np.pi / model.steps_per_revolution
     return vortices.closest(
-        wake.relaxation.position(),
-        wake.relaxation.core_radius(),
+        wake.relaxation.lattice()[:, -1],
+        wake.relaxation.core_radius()[:, -1],
         wake.psi,
         model.n_blades,
         model.rotor["hinge_offset"],

@@ -36,6 +36,15 @@ pub struct Filaments {
 }
 
 impl Filaments {
+    /// Whether nodes and segments are as many as the filaments need.
+    #[must_use]
+    pub fn belong_together(&self) -> bool {
+        let n_segments: usize = self.n_nodes.iter().map(|n| n.saturating_sub(1)).sum();
+        self.n_nodes.iter().sum::<usize>() == self.nodes.len()
+            && self.circulation.len() == n_segments
+            && self.core_radius.len() == n_segments
+    }
+
     /// Appends a filament; shape of `circulation` and `core_radius`: one less than of `nodes`.
     pub fn push(&mut self, nodes: &[[f64; 3]], circulation: &[f64], core_radius: &[f64]) {
         debug_assert!(nodes.len() == circulation.len() + 1 && nodes.len() == core_radius.len() + 1);
