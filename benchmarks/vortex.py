@@ -13,7 +13,7 @@ from measure import peak_memory, seconds, table
 import wakeflight as wf
 
 ROOT = Path(__file__).resolve().parents[1]
-SETS = ("textbook", "scalar", "avx2", "avx512")
+SETS = ("textbook", "scalar", "avx2", "avx512", "directional")
 
 
 def kernel() -> str:
@@ -29,9 +29,11 @@ def kernel() -> str:
     rows = []
     for (core, distance), times in found.items():
         cells = ["{:.2f} ({:.2f})".format(*times[name]) if name in times else "" for name in SETS]
-        ratio = times["textbook"][1] / min(best for _, best in times.values())
-        rows.append([core, distance.lower(), *cells, f"{ratio:.0f}"])
-    head = ["core", "distance to", "textbook loop", "scalar", "AVX2", "AVX-512", "loop over fastest"]
+        value = min(best for _, best in times.values())
+        ratios = [times["textbook"][1] / value, times["directional"][1] / value]
+        rows.append([core, distance.lower(), *cells, f"{ratios[0]:.0f}", f"{ratios[1]:.1f}"])
+    head = ["core", "distance to", "textbook loop", "scalar", "AVX2", "AVX-512", "with derivative"]
+    head += ["loop over fastest", "with derivative over fastest"]
     return table(head, rows) + "\nMedian and, in brackets, best of 51; ratios are of the best.\n"
 
 

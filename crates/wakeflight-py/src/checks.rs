@@ -5,10 +5,16 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use serde::{Deserialize, Serialize};
+use wakeflight::numerics::instruction_set::InstructionSet;
 
 /// Bad input, in Python.
 pub fn invalid(error: impl std::fmt::Display) -> PyErr {
     PyValueError::new_err(error.to_string())
+}
+
+/// Name of the instruction set in use; what was asked for must be on this machine.
+pub fn instruction_set() -> PyResult<&'static str> {
+    InstructionSet::chosen().map(InstructionSet::name).map_err(invalid)
 }
 
 /// `values`, which must be `n` numbers; whether they are finite is for the solver to say.

@@ -1,6 +1,6 @@
 //! The system: F, its Jacobian, trim equations, what a run records.
 
-use crate::checks::{invalid, map, sized};
+use crate::checks::{instruction_set, invalid, map, sized};
 use crate::rotor::{motion, rotor_constants};
 use crate::trim::{self, Motion, PyTrimLayout, PyTrimProblem};
 use numpy::ndarray::Array;
@@ -85,6 +85,7 @@ impl PySystem {
     /// An aircraft in flight, from the JSON of its data and of the setting: air, gravity, free wake, discretisation ...
     #[staticmethod]
     fn aircraft(data_json: &str, setting_json: &str) -> PyResult<Self> {
+        instruction_set()?;
         let data: AircraftData = serde_json::from_str(data_json).map_err(invalid)?;
         let setting: Setting = serde_json::from_str(setting_json).map_err(invalid)?;
         Ok(Self { inner: System::aircraft(&data, &setting).map_err(invalid)? })
@@ -99,6 +100,7 @@ impl PySystem {
         motion: ([f64; 3], [f64; 3]),
         higher: Vec<(usize, f64, f64)>,
     ) -> PyResult<Self> {
+        instruction_set()?;
         let data: RotorData = serde_json::from_str(data_json).map_err(invalid)?;
         let setting: Setting = serde_json::from_str(setting_json).map_err(invalid)?;
         let mut rotor = setting.rotor(&data, &Rigging::direct()).map_err(invalid)?;

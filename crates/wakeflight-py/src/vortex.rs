@@ -1,4 +1,5 @@
 //! Induced velocity of vortex filaments.
+use crate::checks;
 use numpy::{IntoPyArray, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -10,7 +11,8 @@ use wakeflight::vortex::tree::{Method, add_filaments_velocity_by};
 /// Adds the functions of this file to the module.
 pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(induced_velocity, m)?)?;
-    m.add_function(wrap_pyfunction!(set_threads, m)?)
+    m.add_function(wrap_pyfunction!(set_threads, m)?)?;
+    m.add_function(wrap_pyfunction!(instruction_set, m)?)
 }
 
 fn core_named(name: &str) -> PyResult<Core> {
@@ -68,6 +70,7 @@ fn induced_velocity<'py>(
     let (core, core_distance) = (core_named(core)?, core_distance_named(core_distance)?);
     let method = method_named(method, tolerance)?;
     threads::threads().map_err(|e| PyValueError::new_err(e.to_string()))?;
+    checks::instruction_set()?;
     let points = vectors("points", &points)?;
     let nodes = vectors("nodes", &nodes)?;
     let offsets = filament_offsets.as_array();
@@ -106,4 +109,10 @@ fn induced_velocity<'py>(
 fn set_threads(n: i64) -> PyResult<()> {
     let n = usize::try_from(n).unwrap_or(0);
     threads::set_threads(n).map_err(|e| PyValueError::new_err(e.to_string()))
+}
+
+/// Name of the instruction set that sums and derivatives run on.
+#[pyfunction]
+fn instruction_set() -> PyResult<&'static str> {
+    checks::instruction_set()
 }

@@ -1,5 +1,6 @@
 //! Free wake: conversions only.
 
+use crate::checks::instruction_set;
 use crate::options::{marching_options, relaxation_options, wake_options};
 use numpy::ndarray::Array;
 use numpy::{Element, IntoPyArray, PyArray2, PyArray3, PyArray4, PyReadonlyArray1, PyReadonlyArray2};
@@ -153,6 +154,7 @@ impl RelaxationWake {
         mean_inflow: f64,
         prescribed: Option<([f64; 3], [[f64; 3]; 3])>,
     ) -> PyResult<Self> {
+        instruction_set()?;
         let (options, own) = (wake_options(options_json)?, relaxation_options(options_json)?);
         let hub = HubMotion { velocity: hub_velocity, rates: hub_rates };
         let inner = match prescribed {
