@@ -6,6 +6,7 @@ use pyo3::exceptions::{PyArithmeticError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict};
 use serde::{Deserialize, Serialize};
+use wakeflight::numerics::instruction_set::InstructionSet;
 
 /// Numbers from Python, in a row.
 pub type Row<'py> = PyReadonlyArray<'py, f64, Ix1>;
@@ -19,6 +20,11 @@ pub type Motion<'py> = (Table<'py>, Table<'py>);
 /// Bad input, in Python.
 pub fn invalid(error: impl std::fmt::Display) -> PyErr {
     PyValueError::new_err(error.to_string())
+}
+
+/// Name of the instruction set in use; what was asked for must be on this machine.
+pub fn instruction_set() -> PyResult<&'static str> {
+    InstructionSet::chosen().map(InstructionSet::name).map_err(invalid)
 }
 
 /// A numerical failure, in Python.

@@ -1,6 +1,6 @@
 //! The system: F, its Jacobian, trim equations, what a run records.
 
-use crate::checks::{Array, Named, Room, Row, Table, array, failed, invalid, room, sized};
+use crate::checks::{Array, Named, Room, Row, Table, array, failed, instruction_set, invalid, room, sized};
 use crate::trim::{TrimLayout, TrimProblem};
 use numpy::Ix2;
 use pyo3::prelude::*;
@@ -8,7 +8,6 @@ use pyo3::types::PyDict;
 use wakeflight::airframe::servo::Scheduled;
 use wakeflight::blade::hub_motion::HubMotion;
 use wakeflight::blade::kinematics::ModalMotion;
-use wakeflight::blade::surroundings::BladeInflow;
 use wakeflight::numerics::frames::Vec3;
 use wakeflight::rotor::data::RotorData;
 use wakeflight::rotor::passages::FIELDS;
@@ -68,6 +67,7 @@ impl PySystem {
     /// An aircraft in flight, from the JSON of its data and of the setting: air, gravity, free wake, discretisation ...
     #[staticmethod]
     fn aircraft(data_json: &str, setting_json: &str) -> PyResult<Self> {
+        instruction_set()?;
         let data: AircraftData = serde_json::from_str(data_json).map_err(invalid)?;
         let setting: Setting = serde_json::from_str(setting_json).map_err(invalid)?;
         Ok(Self { inner: System::aircraft(&data, &setting).map_err(invalid)? })
@@ -82,6 +82,7 @@ impl PySystem {
         motion: ([f64; 3], [f64; 3]),
         higher: Vec<(usize, f64, f64)>,
     ) -> PyResult<Self> {
+        instruction_set()?;
         let data: RotorData = serde_json::from_str(data_json).map_err(invalid)?;
         let setting: Setting = serde_json::from_str(setting_json).map_err(invalid)?;
         let mut rotor = setting.rotor(&data, &Rigging::direct()).map_err(invalid)?;

@@ -1,5 +1,5 @@
 //! Induced velocity of vortex filaments.
-use crate::checks::{Array, Row, Table, columns, invalid, vectors};
+use crate::checks::{self, Array, Row, Table, columns, invalid, vectors};
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
 use serde::Deserialize;
@@ -30,6 +30,7 @@ pub fn induced_velocity(
 ) -> PyResult<Array> {
     let law: Law = serde_json::from_str(law_json).map_err(invalid)?;
     threads::threads().map_err(invalid)?;
+    checks::instruction_set()?;
     let points = columns("points", &points)?;
     let filaments = Filaments {
         n_nodes: n_nodes
@@ -64,4 +65,10 @@ pub fn induced_velocity(
 #[pyfunction]
 pub fn set_threads(n: i64) -> PyResult<()> {
     threads::set_threads(usize::try_from(n).unwrap_or(0)).map_err(invalid)
+}
+
+/// Name of the instruction set that sums and derivatives run on.
+#[pyfunction]
+pub fn instruction_set() -> PyResult<&'static str> {
+    checks::instruction_set()
 }

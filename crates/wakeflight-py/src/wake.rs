@@ -1,6 +1,6 @@
 //! Free wakes by themselves: conversions and checks, the GIL released.
 
-use crate::checks::{Array, Row, Table, array, columns, failed, invalid, vectors};
+use crate::checks::{Array, Row, Table, array, columns, failed, instruction_set, invalid, vectors};
 use crate::options::{marching_options, relaxation_options, wake_options};
 use pyo3::prelude::*;
 use wakeflight::wake::geometry::BladeGrid;
@@ -65,6 +65,7 @@ impl RelaxationWake {
         mean_inflow: f64,
         prescribed: Option<([f64; 3], [[f64; 3]; 3])>,
     ) -> PyResult<Self> {
+        instruction_set()?;
         let (options, own) = (wake_options(options_json)?, relaxation_options(options_json)?);
         let inner = match prescribed {
             None => wake::RelaxationWake::new(options, own, motion(hub), mean_inflow),

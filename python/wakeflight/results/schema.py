@@ -258,6 +258,7 @@ ATTRIBUTES: tuple[Attribute, ...] = (
     Attribute("maneuver_adapted", "adapted to this aircraft"),
     Attribute("condition", "flight condition"),
     Attribute("program_version", "program version"),
+    Attribute("instruction_set", "instruction set of the vortex sums"),
     Attribute("finished", "1 if the run came to its end, 0 if it failed"),
     Attribute("failure", "where and why a failed run stopped"),
     Attribute("ct", "thrust coefficient at trim"),
