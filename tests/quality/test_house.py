@@ -38,7 +38,7 @@ PYTHON_ORDER = (
     {"presets"},
     {"condition", "inflow", "maneuvers", "wing", "monitors", "snapshot"},
     {"aircraft", "thinning"},
-    {"model", "modes"},
+    {"model", "modes", "airfoil_loop"},
     {"integrators", "exchange"},
     {"wake_trim", "trim_results", "trim_equations"},
     {"trim_limits", "trim_start", "trim_newton"},

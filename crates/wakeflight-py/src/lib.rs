@@ -1,6 +1,7 @@
 //! Python bindings: conversions only.
 use pyo3::prelude::*;
 
+mod airfoil;
 mod atmosphere;
 mod blade;
 mod carrier;
@@ -19,6 +20,7 @@ mod wake;
 #[pymodule]
 fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    airfoil::register(m)?;
     atmosphere::register(m)?;
     system::register(m)?;
     blade::register(m)?;
