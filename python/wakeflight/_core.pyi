@@ -278,6 +278,7 @@ def check_options(options_json: str) -> None: ...
 def near_wake_matrix(
     options_json: str, hub_velocity: _Vector, hub_rates: _Vector, psi: float, flap: float, lead: float
 ) -> _Array: ...
+
 UNSTEADY_MODELS: list[str]
 
 @final

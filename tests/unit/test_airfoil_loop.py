@@ -67,9 +67,9 @@ def test_a_deck_is_a_section(tmp_path):
     path.write_text(DECK)
     with pytest.raises(InputError, match="lift slope"):
         wf.airfoil_loop(path)
-    with pytest.raises(InputError, match="station = 0.5: a C81 deck is one section"):
+    with pytest.raises(InputError, match=r"station = 0\.5: a C81 deck is one section"):
         wf.airfoil_loop(path, station=0.5)
-    with pytest.raises(InputError, match="airfoil = .*no such file"):
+    with pytest.raises(InputError, match=r"airfoil = .*no such file"):
         wf.airfoil_loop(tmp_path / "none.c81")
 
 

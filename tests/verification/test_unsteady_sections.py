@@ -13,7 +13,9 @@ PLATE = FOLDER / "plate.toml"
 
 def theodorsen():
     """C(k) by k."""
-    rows = [line.split(",") for line in (FOLDER / "functions.csv").read_text().splitlines() if line.startswith("theodorsen")]
+    rows = [
+        line.split(",") for line in (FOLDER / "functions.csv").read_text().splitlines() if line.startswith("theodorsen")
+    ]
     return {float(k): complex(float(re), float(im)) for _, k, re, im in rows}
 
 

@@ -41,7 +41,9 @@ def run(case):
     for model in MODELS:
         lift = np.sqrt(np.mean((ours[model][:, 0] / measured[:, 0] - 1) ** 2))
         moment = np.sqrt(np.mean((ours[model][:, 1] - measured[:, 1]) ** 2))
-        notes.append(f"Root mean square over {len(rows)} frames, {model}: largest lift {lift:.1%}, least moment {moment:.3f}.")
+        notes.append(
+            f"Root mean square over {len(rows)} frames, {model}: largest lift {lift:.1%}, least moment {moment:.3f}."
+        )
     shown = next(row for row in rows if row["frame"] == SHOWN)
     cycles = {model: loop(case, shown, model) for model in ("quasi-steady", JUDGED)}
     return Outcome(checks, draw(cycles, ours[JUDGED], measured), notes)

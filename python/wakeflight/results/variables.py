@@ -46,8 +46,16 @@ _ROWS = (
     ("cl_circulatory", "1", "section lift coefficient that is circulation, without the inertia of the air"),
     ("alpha_effective", "rad", "section angle of attack that the shed wake leaves"),
     ("separation", "1", "separation point of a section over its chord, 1 where the flow is attached"),
-    ("states", "1", "states of an unsteady section, by name; upwash [m/s], pitch rate [rad/s], angle [rad], share of the chord"),
-    ("work", "1", "work of the air on a section in a cycle, over rho V^2 c^2/2 per span; negative where it damps the motion"),
+    (
+        "states",
+        "1",
+        "states of an unsteady section, by name; upwash [m/s], pitch rate [rad/s], angle [rad], share of the chord",
+    ),
+    (
+        "work",
+        "1",
+        "work of the air on a section in a cycle, over rho V^2 c^2/2 per span; negative where it damps the motion",
+    ),
     ("cl_m2", "1", "section lift coefficient times Mach number squared"),
     ("alpha", "rad", "section angle of attack"),
     ("mach", "1", "section Mach number"),
