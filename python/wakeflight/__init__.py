@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from .aircraft import Aircraft, Rotor, load_aircraft, load_rotor
+    from .airfoil_loop import airfoil_loop
     from .condition import FlightCondition, condition_for
     from .errors import InputError, NumericalFailure, WakeflightError
     from .flight import Flight, fly
@@ -38,6 +39,7 @@ _HOME = {
     "load_aircraft": "aircraft",
     "Rotor": "aircraft",
     "load_rotor": "aircraft",
+    "airfoil_loop": "airfoil_loop",
     "FlightCondition": "condition",
     "condition_for": "condition",
     "converge": "studies.converge",
@@ -87,6 +89,7 @@ __all__ = [
     "WakeflightError",
     "Wing",
     "__version__",
+    "airfoil_loop",
     "arrested_descent",
     "bibtex",
     "blade_modes",

@@ -39,7 +39,7 @@ PYTHON_ORDER = (
     {"presets"},
     {"condition", "inflow", "maneuvers", "wing", "monitors", "snapshot"},
     {"aircraft", "thinning"},
-    {"model", "modes"},
+    {"model", "modes", "airfoil_loop"},
     {"integrators", "exchange"},
     {"trim", "stepping"},
     {"simulation"},

@@ -1,6 +1,7 @@
 //! Python bindings: conversions and checks only.
 use pyo3::prelude::*;
 
+mod airfoil;
 mod atmosphere;
 mod blade;
 mod carrier;
@@ -22,6 +23,7 @@ mod _core {
     const __version__: &str = env!("CARGO_PKG_VERSION");
     #[pymodule_export]
     use crate::{
+        airfoil::{AirfoilCycle, airfoil_cycle, unsteady_models},
         atmosphere::standard_atmosphere,
         blade::BladeModes,
         exchange::{PyExchange, PySteadyWake},

@@ -1,6 +1,7 @@
-//! Section coefficients by angle of attack and Mach number.
+//! Section coefficients by angle of attack and Mach number, and how they follow a motion in time.
 
 pub mod span;
+pub mod unsteady;
 
 use crate::numerics::scalar::{OfTwo, Real};
 use crate::numerics::tables::Grid;
@@ -228,14 +229,19 @@ impl Airfoil {
     /// From its axes and the coefficients at their nodes, angle by angle.
     fn of_nodes(alpha: Vec<f64>, mach: Vec<f64>, nodes: Vec<[f64; 3]>) -> Self {
         let mut airfoil = Self { alpha: Axis::new(alpha), mach: Axis::new(mach), nodes, zero_lift: 0.0 };
-        let cl = |alpha: f64| airfoil.coefficients::<f64>(alpha, LOW_MACH).0;
+        airfoil.zero_lift = airfoil.zero_lift_at(LOW_MACH);
+        airfoil
+    }
+
+    /// Angle of attack without lift at `mach` [rad], within 15 deg.
+    fn zero_lift_at(&self, mach: f64) -> f64 {
+        let cl = |alpha: f64| self.coefficients::<f64>(alpha, mach).0;
         let (mut low, mut high) = (-15f64.to_radians(), 15f64.to_radians());
         for _ in 0..60 {
             let middle = 0.5 * (low + high);
             if cl(middle) < 0.0 { low = middle } else { high = middle }
         }
-        airfoil.zero_lift = 0.5 * (low + high);
-        airfoil
+        0.5 * (low + high)
     }
 
     /// Angle of attack without lift at a low Mach number [rad], within 15 deg.

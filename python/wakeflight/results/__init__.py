@@ -4,13 +4,14 @@
 from __future__ import annotations
 
 from .attributes import flat_attributes
-from .dataset import assemble, assemble_transient, assemble_trim, assemble_tunnel
+from .dataset import assemble, assemble_loop, assemble_transient, assemble_trim, assemble_tunnel
 from .errors import ResultsError
 from .files import by_name, load, save
 
 __all__ = [
     "ResultsError",
     "assemble",
+    "assemble_loop",
     "assemble_transient",
     "assemble_trim",
     "assemble_tunnel",

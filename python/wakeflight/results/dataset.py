@@ -12,7 +12,7 @@ import numpy as np
 from .._core import instruction_set
 from .attributes import flat_attributes
 from .errors import ResultsError
-from .schema import ATTRIBUTES, COORDINATES, RUN, TRANSIENT, TRIM, TUNNEL, Variable
+from .schema import ATTRIBUTES, COORDINATES, LOOP, RUN, TRANSIENT, TRIM, TUNNEL, Variable
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -55,6 +55,12 @@ def assemble_transient(arrays: Arrays, attributes: Mapping[str, Any]) -> xr.Data
     marked = {**_program(), **attributes}
     marked["finished"] = int(not marked.get("failure"))
     return _dataset(TRANSIENT, arrays, marked, increasing=("time", "station", "age"))
+
+
+def assemble_loop(arrays: Arrays, attributes: Mapping[str, Any]) -> xr.Dataset:
+    """Dataset of a section in harmonic motion, from arrays by the names of the schema's `LOOP` table, checked like a run."""
+    marked = {"program_version": _program_version(), **attributes}
+    return _dataset(LOOP, arrays, marked, increasing=("phase",))
 
 
 def _dataset(

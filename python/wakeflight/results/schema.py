@@ -68,6 +68,8 @@ COORDINATES: dict[str, Variable] = {
         Variable("psi", ("psi",), "rad", "azimuth of a disk map in a run, where `azimuth` is that of the blades"),
         Variable("revolution", ("revolution",), "1", "number of the marched revolution"),
         Variable("harmonic", ("harmonic",), "1", "mean, then cosine and sine of each harmonic"),
+        Variable("phase", ("phase",), "rad", "phase of a harmonic motion, 0 where it passes its mean upward"),
+        Variable("state", ("state",), "1", "state of an unsteady section"),
     )
 }
 
@@ -246,6 +248,22 @@ TRANSIENT: tuple[Variable, ...] = (
     *_table(("time", "xyz"), "hub_force", "hub_moment"),
     *_table(("time", "blade", "age", "xyz"), "wake", optional=True),
     *_table(("time", "blade", "age"), "tip_circulation", optional=True),
+)
+
+LOOP: tuple[Variable, ...] = (
+    *_table(
+        ("phase",),
+        ("alpha", "angle of attack of the motion: pitch angle, or that of the velocity of plunge"),
+        "cl",
+        "cl_circulatory",
+        "cd",
+        "cm",
+        "cn",
+        "alpha_effective",
+        "separation",
+    ),
+    *_table((), "work"),
+    *_table(("phase", "state"), "states", optional=True),
 )
 
 ATTRIBUTES: tuple[Attribute, ...] = (

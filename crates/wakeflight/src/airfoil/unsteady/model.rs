@@ -1,0 +1,117 @@
+//! The models of a section by name, over one kind of states.
+
+use super::attached::Attached;
+use super::hgm::Hgm;
+use super::lag::{Law, MAX_STATES, States, advanced, equilibrium, rates};
+use super::oye::Oye;
+use super::{Coefficients, DAMPING, Flow, Section};
+use crate::numerics::scalar::Real;
+use serde::Deserialize;
+
+/// How a section answers in time.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Model {
+    /// The table at the angle of attack of the instant.
+    #[default]
+    QuasiSteady,
+    /// Attached unsteady flow, compressible.
+    Attached,
+    /// Separation point with one lag.
+    Oye,
+    /// Four states: shed wake, pressure, separation point.
+    Hgm,
+}
+
+/// Runs `$call` with `$law` being the law of `$model`; `$plain` where it has no states.
+macro_rules! of_law {
+    ($model:expr, $law:ident => $call:expr, $plain:expr) => {
+        match $model {
+            Model::QuasiSteady => $plain,
+            Model::Attached => {
+                let $law = &Attached;
+                $call
+            }
+            Model::Oye => {
+                let $law = &Oye;
+                $call
+            }
+            Model::Hgm => {
+                let $law = &Hgm;
+                $call
+            }
+        }
+    };
+}
+
+fn names_of<L: Law>(_: &L) -> &'static [&'static str] {
+    L::NAMES
+}
+
+fn sources_of<L: Law>(_: &L) -> &'static [&'static str] {
+    L::SOURCES
+}
+
+impl Model {
+    /// Every model, by the name that users type.
+    pub const ALL: [(&'static str, Self); 4] = [
+        ("quasi-steady", Self::QuasiSteady),
+        ("attached", Self::Attached),
+        ("oye", Self::Oye),
+        ("hgm", Self::Hgm),
+    ];
+
+    /// Name of each state.
+    pub fn state_names(self) -> &'static [&'static str] {
+        of_law!(self, law => names_of(law), &[])
+    }
+
+    /// Keys of its sources.
+    pub fn sources(self) -> &'static [&'static str] {
+        of_law!(self, law => sources_of(law), &[])
+    }
+
+    /// Rates of the states.
+    pub fn rates<S: Real>(self, section: &Section, flow: &Flow<S>, states: &States<S>) -> States<S> {
+        of_law!(self, law => rates(law, section, flow, states), [S::zero(); MAX_STATES])
+    }
+
+    /// States of a flow that stays.
+    pub fn equilibrium<S: Real>(self, section: &Section, flow: &Flow<S>) -> States<S> {
+        of_law!(self, law => equilibrium(law, section, flow), [S::zero(); MAX_STATES])
+    }
+
+    /// States after `dt` [s], the flow before and after given.
+    pub fn advanced<S: Real>(
+        self,
+        section: &Section,
+        flows: [&Flow<S>; 2],
+        dt: f64,
+        states: &States<S>,
+    ) -> States<S> {
+        of_law!(self, law => advanced(law, section, flows, dt, states), *states)
+    }
+
+    /// Coefficients of the section.
+    pub fn coefficients<S: Real>(
+        self,
+        section: &Section,
+        flow: &Flow<S>,
+        states: &States<S>,
+    ) -> Coefficients<S> {
+        of_law!(self, law => law.coefficients(section, flow, states), quasi_steady(section, flow))
+    }
+}
+
+/// The table at the angle of attack of three quarters of the chord, with the damping of thin-airfoil theory.
+fn quasi_steady<S: Real>(section: &Section, flow: &Flow<S>) -> Coefficients<S> {
+    let (cl, cd, cm) = section.airfoil.coefficients(flow.alpha, flow.mach());
+    Coefficients {
+        cl,
+        circulatory: cl,
+        cd,
+        cm: cm + flow.reduced_rate(section.chord) * DAMPING,
+        alpha_effective: flow.alpha,
+        separation: section.separation.at(flow.alpha, flow.mach()).point,
+    }
+}
