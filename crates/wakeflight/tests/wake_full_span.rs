@@ -63,7 +63,7 @@ fn verif_uniform_circulation_leaves_a_tip_and_a_root_filament() {
         wake.sweep(1).unwrap();
         point_velocity(&VortexSegments::new(options), options, &wake.instant(5), &points)
     };
-    let base = WakeOptions { trailer_core: 0.02, ..full_span() };
+    let base = WakeOptions { trailer_core: Some(0.02), core_radius: 0.02, ..full_span() };
     let reference = {
         let tip = field(&WakeOptions { trailers: Trailers::Tip, ..base });
         // the root filament as the tip vortex of a blade that ends there, without the bound vortex
@@ -111,7 +111,8 @@ fn rectangular_wing(aspect: f64, n: usize) -> [f64; 2] {
         near_wake_angle: 0.0,
         azimuth_step: TAU / 60.0,
         turns: 1.0,
-        trailer_core: 0.0,
+        trailer_core: Some(0.0),
+        core_radius: 0.0,
         core_growth: 0.0,
         station_core_floor: 0.0,
         ..WakeOptions::new(1, aspect, 0.0, 0.0, 1.0, 1.0)
@@ -188,7 +189,8 @@ fn verif_shed_vortices_bring_the_lift_deficiency_of_theodorsen() {
             azimuth_step: TAU / n_k as f64,
             turns: 1.0,
             near_wake_angle: full_angle * near as f64,
-            trailer_core: 0.0,
+            trailer_core: Some(0.0),
+            core_radius: 0.0,
             core_growth: 0.0,
             station_core_floor: 0.0,
             ..WakeOptions::new(1, 20_000.0, 0.0, 0.0, 1.0, 1.0)
@@ -316,7 +318,8 @@ fn verif_central_marching_settles_on_the_relaxed_lattice() {
             azimuth_step: TAU / steps as f64,
             turns: 1.0,
             n_trailers: 5,
-            trailer_core: 0.06,
+            trailer_core: Some(0.06),
+            core_radius: 0.06,
             ..full_span()
         };
         let hub = hub(0.185, -0.1, 0.0, 0.0, 0.0);
@@ -416,7 +419,8 @@ fn verif_the_field_of_a_full_span_wake_by_the_tree_is_within_its_tolerance() {
         n_trailers: 0,
         azimuth_step: TAU / 36.0,
         turns: 4.0,
-        trailer_core: 0.02,
+        trailer_core: Some(0.02),
+        core_radius: 0.02,
         ..full_span()
     };
     let field = |summation: Summation, tree_tolerance: f64| {

@@ -27,7 +27,8 @@ pub fn full_span() -> WakeOptions {
         trailers: Trailers::FullSpan,
         n_stations: 14,
         n_trailers: 8,
-        trailer_core: 0.04,
+        trailer_core: Some(0.04),
+        core_radius: 0.04,
         azimuth_step: TAU / 18.0,
         turns: 3.0,
         ..options()
