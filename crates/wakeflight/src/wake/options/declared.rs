@@ -42,7 +42,7 @@ declare! {
         form: Form = always(Form::Displacement);
 
         /// What leaves a blade freely: its tip vortex alone, or trailers all over the span joined by shed vortices.
-        trailers: Trailers = by_regime(Trailers::FullSpan, Trailers::FullSpan, Trailers::Tip), source(&["ribera2004"]);
+        trailers: Trailers = by_regime(Trailers::FullSpan, Trailers::Tip, Trailers::Tip), source(&["ribera2004"]);
 
         /// Trailers per blade of a full-span wake; 0 is one at every edge of the bound elements (n_stations + 1).
         n_trailers: usize = always(3), between(0.0, 201.0);
