@@ -326,7 +326,7 @@ fn verif_central_marching_settles_on_the_relaxed_lattice() {
         let mut start = loaded(&options, hub, 0.016);
         settle(&mut start, 1e-6, 120);
         let reference = start.inflow_far();
-        let central = MarchingOptions { scheme: Scheme::Pcc, ..MarchingOptions::default() };
+        let central = MarchingOptions { scheme: Scheme::Pcc, ..two_fields() };
         let mut wake = TimeMarchingWake::from_relaxation(&start, 0, central).unwrap();
         let circulation = rounded_circulation(&options, CT).repeat(2);
         let n_r = options.n_stations;
@@ -375,7 +375,7 @@ fn verif_every_trailer_is_second_order() {
         let options =
             WakeOptions { azimuth_step: TAU / steps as f64, turns: 2.0, n_trailers: 3, ..full_span() };
         let whole = RelaxationOptions { relaxation: 1.0, ..RelaxationOptions::default() };
-        let own = MarchingOptions { scheme: scheme.unwrap_or(Scheme::Bdf2), ..MarchingOptions::default() };
+        let own = MarchingOptions { scheme: scheme.unwrap_or(Scheme::Bdf2), ..two_fields() };
         let none = vec![0.0; steps * options.n_stations];
         let field: fn([f64; 3]) -> [f64; 3] = swirl;
         let mut start = RelaxationWake::with_field(options, whole, hub, 0.01, Prescribed(field)).unwrap();
@@ -425,9 +425,7 @@ fn verif_the_field_of_a_full_span_wake_by_the_tree_is_within_its_tolerance() {
     };
     let field = |summation: Summation, tree_tolerance: f64| {
         let options = WakeOptions { summation, tree_tolerance, ..lattice };
-        let wake =
-            TimeMarchingWake::from_relaxation(&loaded(&options, hub, 0.02), 0, MarchingOptions::default())
-                .unwrap();
+        let wake = TimeMarchingWake::from_relaxation(&loaded(&options, hub, 0.02), 0, two_fields()).unwrap();
         wake.wake_velocity(wake.position())
     };
     let size = |v: [f64; 3]| v.iter().map(|c| c * c).sum::<f64>().sqrt();
@@ -457,8 +455,7 @@ fn verif_marching_by_the_tree_is_marching_by_the_direct_sum_within_its_tolerance
             ..full_span()
         };
         let mut wake =
-            TimeMarchingWake::from_relaxation(&loaded(&options, hub, 0.03), 0, MarchingOptions::default())
-                .unwrap();
+            TimeMarchingWake::from_relaxation(&loaded(&options, hub, 0.03), 0, two_fields()).unwrap();
         for step in 1..=2 {
             wake.step(hub, &blades(&options, step), &[12.0; 40]).unwrap();
         }
