@@ -42,7 +42,7 @@ JUDGES = {
     "full-span, all shed": {"shed_wake": "all"},
     "full-span, no shed": {"shed_wake": "none"},
     "full-span, near wake 60 deg": {"near_wake_angle": "60 deg"},
-    "full-span, core 0.04 R": {"trailer_core": 0.04},
+    "full-span, core 0.04 R": {"trailer_core": 0.04, "core_radius": 0.04},
     "full-span, 18 trailers": {"n_trailers": 18},
 }
 CANDIDATES = {

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """Presets of the inflow models: options that belong together, by a name.
 
-`standard` is what the core declares as default. `paper` is what the manoeuvres of the paper are flown with (docs/paper.md): one
+`standard` is what the core declares as default: three trailers a blade and what is shed between them for two turns, what is
+older in its mean (docs/numerics/wake-defaults.md). `paper` is what the manoeuvres of the paper are flown with (docs/paper.md): one
 tip vortex, an exchange at every 10 deg, the dynamics on the inflow of a revolution with the relaxation wake, ten revolutions at
 frozen states before the time-marching wake flies; it stays what it is where a default moves. `reference` is the finest wake that
 was found to settle in forward flight and, marched, in hover (docs/numerics/wake-defaults.md): free trailers all over the span.
@@ -35,7 +36,14 @@ PRESETS: dict[str, dict[str, Any]] = {
         "extrapolate": False,
         "max_loops_response": 10,
     },
-    "reference": {"trailers": "full-span", "n_trailers": 10, "azimuth_step": "15 deg", "turns": 10},
+    "reference": {
+        "trailers": "full-span",
+        "n_trailers": 10,
+        "trailer_core": 0.02,
+        "azimuth_step": "15 deg",
+        "turns": 10,
+        "far_wake_turns": 0,
+    },
 }
 """Options of each preset; a model takes those it has."""
 

@@ -54,7 +54,8 @@ def page():
         for option in options:
             unit = {"rad": "angle", "": "–"}.get(option.unit, option.unit)
             if option.by_regime:
-                default = ", ".join(f"{value:g}" for value in option.by_regime.values())
+                default = ", ".join(f"{value}" for value in option.by_regime.values())
+                default += "" if option.lattice is None else f"; {option.lattice} with full-span trailers"
             else:
                 default = option.default_in_words
             allowed = "<br>".join(f"`{word}`: {meaning}" for word, meaning in option.words.items()) or option.allowed

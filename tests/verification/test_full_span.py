@@ -18,6 +18,7 @@ OPTIONS = {
     "turns": 1.0,
     "near_wake_angle": "30 deg",
     "trailer_core": 0.05,
+    "core_radius": 0.05,
     "inflow_tolerance": 1e-3,
 }
 MARCHING = {name: value for name, value in OPTIONS.items() if name != "inflow_tolerance"}

@@ -297,7 +297,7 @@ def solution(
     if not model.inflow.is_marching:
         return on_relaxation(model, start, StandOnWake(model, progress))
     relaxation = trim_model(model.inflow)
-    tumbling = model.condition.regime(model.tip_speed) != "forward" and model.inflow.trailers == "full-span"
+    tumbling = model.condition.regime(model.tip_speed) != "forward" and model.inflow.is_full_span
     if tumbling:
         relaxation = replace(relaxation, **START)
     relaxed = StandModel.build(model.aircraft, model.condition, relaxation, model.n_harmonics, model.blade_model)

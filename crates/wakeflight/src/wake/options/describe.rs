@@ -200,6 +200,10 @@ pub struct Descriptor {
     pub words: &'static [Word],
     /// Default.
     pub default: Told,
+    /// Default in every regime where trailers leave all over the span; none where it is the same.
+    pub lattice: Option<Plain>,
+    /// Whether it acts on a lone tip vortex only: where it is set, trailers that are left open are that.
+    pub tip_alone: bool,
     /// Meaning, in a sentence.
     pub meaning: String,
     /// Keys of the bibliography.
@@ -227,6 +231,8 @@ impl Descriptor {
             range: None,
             words: T::WORDS,
             default: default.told,
+            lattice: None,
+            tip_alone: false,
             meaning,
             sources: &[],
             refinement: None,
@@ -236,6 +242,16 @@ impl Descriptor {
     /// Its unit: `rad`, or what it is a fraction of.
     pub(crate) fn unit(self, unit: &'static str) -> Self {
         Self { unit, ..self }
+    }
+
+    /// Another default where trailers leave all over the span, whatever the regime.
+    pub(crate) fn lattice(self, value: impl Value) -> Self {
+        Self { lattice: Some(value.plain()), ..self }
+    }
+
+    /// Acts where a lone tip vortex leaves the blade.
+    pub(crate) fn tip_alone(self) -> Self {
+        Self { tip_alone: true, ..self }
     }
 
     /// Values from `low` to `high`, both allowed.
