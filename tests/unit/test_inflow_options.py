@@ -35,7 +35,15 @@ def test_the_defaults_are_those_of_the_coupled_flight():
     assert wake["azimuth_step"] == pytest.approx(math.pi / 18)
     assert wake["near_wake_angle"] == pytest.approx(math.pi / 6)
     assert options["rotor"]["chord"] == pytest.approx(0.527304)
-    expected = {"trailers": "full-span", "n_trailers": 3, "turns": 2, "form": "displacement", "core_radius": 0.02, "core_growth": 3e-4, "bound_core": 0.25}
+    expected = {
+        "trailers": "full-span",
+        "n_trailers": 3,
+        "turns": 2,
+        "form": "displacement",
+        "core_radius": 0.02,
+        "core_growth": 3e-4,
+        "bound_core": 0.25,
+    }
     expected |= {"tip_strength": "equivalent", "inboard_wake": "none", "near_wake_segments": 6, "n_stations": 20}
     expected |= {"station_core_floor": 0.25, "far_wake_turns": 2, "sheet_factor": 1.0}
     assert {key: wake[key] for key in expected} == expected

@@ -32,7 +32,13 @@ SOLVERS = {
 def options(steps, scheme="bdf2", form="displacement"):
     """Rotor of unit radius and speed whose wake is long enough for the table; relaxed fully in every sweep."""
     wake = wf.TimeMarchingWake(
-        turns=TURNS, azimuth_step=f"{360 / steps} deg", near_wake_angle="0 deg", scheme=scheme, form=form
+        trailers="tip",
+        turns=TURNS,
+        azimuth_step=f"{360 / steps} deg",
+        near_wake_angle="0 deg",
+        scheme=scheme,
+        form=form,
+        evaluation="pece",
     )
     wake = wake.resolved("forward").core_options(AIRCRAFT)
     wake["rotor"] = {"n_blades": 1, "radius": 1.0, "root_cutout": 0.2, "hinge_offset": 0.0, "chord": 0.05, "omega": 1.0}

@@ -59,7 +59,7 @@ def assemble_transient(arrays: Arrays, attributes: Mapping[str, Any]) -> xr.Data
 
 def assemble_loop(arrays: Arrays, attributes: Mapping[str, Any]) -> xr.Dataset:
     """Dataset of a section in harmonic motion, from arrays by the names of the schema's `LOOP` table, checked like a run."""
-    marked = {"program_version": _program_version(), **attributes}
+    marked = {**_program(), **attributes}
     return _dataset(LOOP, arrays, marked, increasing=("phase",))
 
 
