@@ -113,7 +113,11 @@ def main(out, *names):
     path, aircraft = Path(out), wf.load_aircraft("uh60a")
     kept = json.loads(path.read_text()) if path.exists() else {}
     for name in names or WAKES:
-        kept[name] = {"stand": by_moments(name), "roll": in_roll(name, aircraft), "level": in_level_flight(name, aircraft)}
+        kept[name] = {
+            "stand": by_moments(name),
+            "roll": in_roll(name, aircraft),
+            "level": in_level_flight(name, aircraft),
+        }
         path.write_text(json.dumps(kept, indent=1) + "\n")
         print(name, json.dumps(kept[name]), flush=True)
 

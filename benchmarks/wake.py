@@ -36,7 +36,11 @@ def naive() -> float:
 def lattice(n_trailers: int, steps: int, turns: int, summation: str) -> tuple[_core.TimeMarchingWake, int, int]:
     """Rigid wake of four blades in forward flight, ready to march; its markers and its segments."""
     n_stations = max(20, n_trailers - 1)
-    kind = {"trailers": "tip"} if n_trailers == 1 else {"trailers": "full-span", "n_trailers": n_trailers, "far_wake_turns": 0}
+    kind = (
+        {"trailers": "tip"}
+        if n_trailers == 1
+        else {"trailers": "full-span", "n_trailers": n_trailers, "far_wake_turns": 0}
+    )
     options = {
         "rotor": {
             "n_blades": 4,

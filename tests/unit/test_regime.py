@@ -60,8 +60,9 @@ def test_only_what_was_not_given_is_left_to_the_regime(kind, name):
 def test_turns_are_not_repeated_where_a_cylinder_closes_the_wake_or_less_than_two_are_free():
     closed = wf.RelaxationWake(far_wake="cylinder").resolved("hover")
     assert (closed.trailers, closed.turns, closed.far_wake_turns) == ("tip", 5, 0)
-    short = wf.RelaxationWake(turns=1.5).resolved("hover")
-    assert (short.trailers, short.turns, short.far_wake_turns) == ("full-span", 1.5, 0)
+    for name, trailers in (("forward", "full-span"), ("hover", "tip")):
+        short = wf.RelaxationWake(turns=1.5).resolved(name)
+        assert (short.trailers, short.turns, short.far_wake_turns) == (trailers, 1.5, 0)
 
 
 @pytest.mark.parametrize(
