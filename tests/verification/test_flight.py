@@ -41,10 +41,10 @@ def test_the_result_has_the_same_bits_with_one_thread_and_with_two(baseline_rela
         assert np.array_equal(flights[0].data[name].values, flights[1].data[name].values), name
 
 
-def test_ida_agrees_with_an_explicit_solver_of_high_order_over_a_coupling_step(baseline_relaxation):
+def test_ida_agrees_with_an_explicit_solver_of_high_order_over_a_coupling_step(baseline_paper):
     from scipy.integrate import solve_ivp
 
-    start = baseline_relaxation
+    start = baseline_paper
     model = start.model
     sticks = Sticks(wf.arrested_descent(), start.stick_si)
     t0, t1 = 0.6, 0.6 + np.radians(10) / model.omega
