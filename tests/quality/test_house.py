@@ -37,7 +37,7 @@ PYTHON_ORDER = (
     {"units", "references", "vortex", "progress", "limits", "text"},
     {"options"},
     {"presets"},
-    {"condition", "inflow", "maneuvers", "wing", "monitors", "snapshot"},
+    {"condition", "inflow", "maneuvers", "wing", "monitors", "snapshot", "rotor_speed"},
     {"aircraft", "thinning"},
     {"model", "modes", "airfoil_loop"},
     {"integrators", "exchange"},

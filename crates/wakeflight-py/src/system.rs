@@ -11,6 +11,7 @@ use wakeflight::blade::kinematics::ModalMotion;
 use wakeflight::numerics::frames::Vec3;
 use wakeflight::rotor::data::RotorData;
 use wakeflight::rotor::passages::FIELDS;
+use wakeflight::rotor::speed::{RotorSpeed, SpeedHistory};
 use wakeflight::rotor::swashplate::{PitchHarmonic, Rigging};
 use wakeflight::system::blades::Controls;
 use wakeflight::system::carrier::Stand;
@@ -43,7 +44,14 @@ impl PyInputs {
                 HeldInflow::Stations { inflow: map.as_array().iter().copied().collect(), mean: mean_inflow }
             }
         };
-        Ok(Self(Inputs { stick, stick_rate, t_start, inflow: vec![inflow], stabilator_incidence }))
+        Ok(Self(Inputs {
+            stick,
+            stick_rate,
+            t_start,
+            inflow: vec![inflow],
+            stabilator_incidence,
+            disturbance: None,
+        }))
     }
 }
 
@@ -90,6 +98,23 @@ impl PySystem {
             higher.into_iter().map(|(order, cosine, sine)| PitchHarmonic { order, cosine, sine }).collect();
         let (velocity, rates) = motion;
         Ok(Self { inner: System::on_stand(Stand { velocity, rates }, vec![rotor], &setting) })
+    }
+
+    /// The same system, its first rotor at a speed linear between `corners`, time [s] and speed [rad/s], steady before and after.
+    fn with_rotor_speed(&self, corners: Vec<(f64, f64)>) -> PyResult<Self> {
+        let mut inner = self.inner.clone();
+        inner.rotors[0].speed = RotorSpeed::Prescribed(SpeedHistory::new(&corners).map_err(invalid)?);
+        Ok(Self { inner })
+    }
+
+    /// Angle [rad] by which the first blade has turned at time `t` [s].
+    fn turned(&self, t: f64) -> f64 {
+        self.inner.main().turned(t)
+    }
+
+    /// Time [s] at which the first blade has turned by `psi` [rad].
+    fn time(&self, psi: f64) -> f64 {
+        self.inner.main().time(psi)
     }
 
     /// Names and units of the states, in order.
@@ -166,6 +191,19 @@ impl PySystem {
         let out = room(&mut out, n * n)?;
         self.inner.jacobian(&self.at(t, &y, &y_dot, inputs)?, weights.0, weights.1, out);
         Ok(())
+    }
+
+    /// dF/du by controls, their rates, stabilator, held inflow, wind, rotor speed: name and unit of every column, entries
+    /// (n, columns).
+    fn input_slopes(
+        &self,
+        t: f64,
+        y: Row,
+        y_dot: Row,
+        inputs: &PyInputs,
+    ) -> PyResult<(Vec<(String, &'static str)>, Array)> {
+        let slopes = self.inner.input_slopes(&self.at(t, &y, &y_dot, inputs)?).map_err(invalid)?;
+        Ok((slopes.names, array(slopes.values, &[self.inner.layout.len()])))
     }
 
     /// Layout of the unknowns and equations of a trim.

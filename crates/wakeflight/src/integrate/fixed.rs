@@ -211,8 +211,9 @@ impl FixedStep {
     /// Finds the rate that satisfies F = 0 with `inputs` from now on, and linearises where dF/dy is too old.
     pub fn prepare(&mut self, system: &System, inputs: &Inputs) -> Result<(), StepFailure> {
         // a hair more, so that two steps of ten degrees count as twenty
-        let kept = (1.0 + 1e-6) * self.kept / system.main().omega;
-        let renew = self.linearised_at.is_none_or(|t| self.t - t > kept);
+        let kept = (1.0 + 1e-6) * self.kept;
+        let rotor = system.main();
+        let renew = self.linearised_at.is_none_or(|t| rotor.turned(self.t) - rotor.turned(t) > kept);
         self.find_rate(system, inputs, renew)
     }
 

@@ -5,6 +5,7 @@ use crate::blade::hub_motion::HubMotion;
 use crate::blade::kinematics::{ModalMotion, PitchMotion};
 use crate::rotor::circulation::BladeInstant;
 use crate::rotor::exchange::{azimuth, row};
+use crate::rotor::speed::Turning;
 
 /// Controls of a system, and what they change by in a second; those that it has not are zero.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -34,9 +35,11 @@ impl System {
         (0..self.main().n_blades).map(|b| self.modal_motion(0, y, &still, b)).collect()
     }
 
-    /// A blade with this motion at azimuth `psi` [rad].
+    /// A blade with this motion at azimuth `psi` [rad] of the rotor at its nominal speed.
     pub fn blade_at(&self, psi: f64, modal: ModalMotion<f64>, controls: &Controls) -> BladeInstant {
-        let control = self.main().blade_pitch(controls.stick, controls.rate, psi).into();
+        let rotor = self.main();
+        let turning = Turning::steady(rotor.omega);
+        let control = rotor.blade_pitch(controls.stick, controls.rate, psi, turning).into();
         BladeInstant { psi, modal, control }
     }
 
@@ -61,6 +64,8 @@ impl System {
 
     /// Pitch at each of `n` azimuths of a revolution with the controls held.
     pub fn steady_pitch(&self, n: usize, stick: [f64; 4]) -> Vec<PitchMotion<f64>> {
-        (0..n).map(|k| self.main().blade_pitch(stick, [0.0; 4], azimuth(k, n)).into()).collect()
+        let rotor = self.main();
+        let turning = Turning::steady(rotor.omega);
+        (0..n).map(|k| rotor.blade_pitch(stick, [0.0; 4], azimuth(k, n), turning).into()).collect()
     }
 }

@@ -14,6 +14,7 @@ pub use steady::{Changes, Iteration, SteadyWake};
 
 use super::circulation::BladeInstant;
 use super::hub::Rotor;
+use super::speed::RotorSpeed;
 use crate::blade::aerodynamics::Air;
 use crate::blade::hub_motion::HubMotion;
 use crate::blade::kinematics::PitchMotion;
@@ -99,8 +100,15 @@ impl Exchange {
         matches!(self, Self::Relaxation(wake) if wake.renews(step))
     }
 
-    /// The flight has reached `step`: the air answers.
+    /// The flight has reached `step`: the air answers. Wakes go by equal steps of time: they refuse a rotor whose speed changes.
     pub fn advance(&mut self, step: usize, reached: &Reached) -> Result<(), WakeError> {
+        if !matches!(self, Self::Dynamic) && reached.place.rotor.speed != RotorSpeed::Constant {
+            return Err(WakeError::InvalidOption {
+                field: "rotor_speed",
+                value: "a history".into(),
+                allowed: "must be constant with a free wake".into(),
+            });
+        }
         match self {
             Self::Dynamic => Ok(()),
             Self::Relaxation(wake) => wake.advance(step, reached),
