@@ -29,7 +29,7 @@ def page():
         '`wf.TimeMarchingWake(turns=6, near_wake_angle="45 deg")`; on the command line `--wake turns=6 --wake',
         '"near_wake_angle=45 deg"`. R: rotor radius, c: reference chord, Ω: rotor speed. Angles are text with a unit.',
         "",
-        "A default in three numbers depends on the regime of the rotor: "
+        "A default in four depends on the regime of the rotor: "
         + ", ".join(f"*{words}*" for words in REGIMES.values())
         + ".",
         "An option left at `None` is left open, or to the regime; one that was given is never replaced.",

@@ -37,9 +37,12 @@ def numbers(kind, name, trailers=None):
         (5.9, 0.0, "hover"),
         (5.9, 20.0, "hover"),
         (5.9, -0.1, "descent"),
-        (6.0, 0.0, "forward"),
-        (6.0, -20.0, "forward"),
-        (-6.0, 0.0, "forward"),
+        (6.0, 0.0, "slow"),
+        (6.0, -20.0, "slow"),
+        (-6.0, 0.0, "slow"),
+        (16.9, 0.0, "slow"),
+        (17.0, 0.0, "forward"),
+        (-17.0, -20.0, "forward"),
     ],
 )
 def test_regime_follows_from_the_advance_ratio_and_from_which_side_the_air_comes(in_plane, climb, name):
@@ -60,7 +63,7 @@ def test_only_what_was_not_given_is_left_to_the_regime(kind, name):
 def test_turns_are_not_repeated_where_a_cylinder_closes_the_wake_or_less_than_two_are_free():
     closed = wf.RelaxationWake(far_wake="cylinder").resolved("hover")
     assert (closed.trailers, closed.turns, closed.far_wake_turns) == ("tip", 5, 0)
-    for name, trailers in (("forward", "full-span"), ("hover", "tip")):
+    for name, trailers in (("forward", "full-span"), ("slow", "tip"), ("hover", "tip")):
         short = wf.RelaxationWake(turns=1.5).resolved(name)
         assert (short.trailers, short.turns, short.far_wake_turns) == (trailers, 1.5, 0)
 
@@ -100,7 +103,8 @@ def test_an_option_left_open_is_no_number_for_the_core(uh60a):
         ("10 m/s", "90 deg", "hover", {"climb": "10 m/s"}),
         ("10 m/s", "-90 deg", "descent", {"climb": "-10 m/s"}),
         ("10 kt", "0 deg", "hover", {"speed": "10 kt"}),
-        ("20 kt", "0 deg", "forward", {"speed": "20 kt"}),
+        ("20 kt", "0 deg", "slow", {"speed": "20 kt"}),
+        ("40 kt", "0 deg", "forward", {"speed": "40 kt"}),
         ("80 kt", "-6 deg", "forward", {"speed": "80 kt", "shaft_angle": "6 deg"}),
     ],
 )
@@ -140,7 +144,7 @@ def test_a_flight_marches_the_wake_its_trim_relaxed(uh60a, speed, given):
 
 
 def test_help_names_the_numbers_of_every_regime():
-    told = "by regime: 4 forward, 5 hover and climb, 8 axial descent; 2 with full-span trailers"
+    told = "by regime: 4 forward, 4 low speed, 5 hover and climb, 8 axial descent; 2 with full-span trailers"
     assert options.described("turns") == told
     shown = CliRunner().invoke(cli.app, ["trim", "--help"], env={"COLUMNS": "300"}).output
     assert options.described("turns") in " ".join(shown.split())

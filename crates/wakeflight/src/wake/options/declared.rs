@@ -1,7 +1,7 @@
 //! The options of the free wakes: each stands here once, and nowhere else is its name, range, default or meaning told.
 //!
 //! Lengths are over the radius or the chord, angles in rad. Where a default depends on the regime of the rotor the three are
-//! those of forward flight, of hover and climb, and of axial descent.
+//! those of forward flight, of hover and climb, and of axial descent; at low speed it is that of forward flight unless told.
 
 use super::describe::{
     EVERY_MODEL, FREE_WAKES, RELAXATION, TIME_MARCHING, always, by_regime, declare, left_open,
@@ -42,7 +42,7 @@ declare! {
         form: Form = always(Form::Displacement);
 
         /// What leaves a blade freely: its tip vortex alone, or trailers all over the span joined by shed vortices.
-        trailers: Trailers = by_regime(Trailers::FullSpan, Trailers::Tip, Trailers::Tip), source(&["ribera2004"]);
+        trailers: Trailers = by_regime(Trailers::FullSpan, Trailers::Tip, Trailers::Tip).at_low_speed(Trailers::Tip), source(&["ribera2004"]);
 
         /// Trailers per blade of a full-span wake; 0 is one at every edge of the bound elements (n_stations + 1).
         n_trailers: usize = always(3), between(0.0, 201.0);

@@ -123,6 +123,8 @@ pub enum Told {
     ByRegime {
         /// Forward flight.
         forward: Plain,
+        /// Low speed.
+        slow: Plain,
         /// Hover and climb.
         hover: Plain,
         /// Axial descent.
@@ -146,10 +148,24 @@ pub(crate) fn always<T: Value>(value: T) -> Start<T> {
     Start { value, told: Told::Always(value.plain()) }
 }
 
-/// A default for each regime; the core starts from that of forward flight.
+/// A default for each regime, that of low speed being that of forward flight; the core starts from that of forward flight.
 pub(crate) fn by_regime<T: Value>(forward: T, hover: T, descent: T) -> Start<T> {
-    let told = Told::ByRegime { forward: forward.plain(), hover: hover.plain(), descent: descent.plain() };
+    let (forward_told, hover, descent) = (forward.plain(), hover.plain(), descent.plain());
+    let told = Told::ByRegime { forward: forward_told, slow: forward_told, hover, descent };
     Start { value: forward, told }
+}
+
+impl<T: Value> Start<T> {
+    /// Another default at low speed, where else that of forward flight holds.
+    pub(crate) fn at_low_speed(self, value: T) -> Self {
+        let told = match self.told {
+            Told::ByRegime { forward, hover, descent, .. } => {
+                Told::ByRegime { forward, slow: value.plain(), hover, descent }
+            }
+            told => told,
+        };
+        Self { told, ..self }
+    }
 }
 
 /// No default: what holds then in `words`; the core starts from `value`.

@@ -293,8 +293,8 @@ mod tests {
             assert_eq!(!words.is_empty(), *kind == Kind::Word, "{name}: words");
             match told.default {
                 Told::Always(value) => told.check(value).unwrap(),
-                Told::ByRegime { forward, hover, descent } => {
-                    [forward, hover, descent].into_iter().for_each(|v| told.check(v).unwrap());
+                Told::ByRegime { forward, slow, hover, descent } => {
+                    [forward, slow, hover, descent].into_iter().for_each(|v| told.check(v).unwrap());
                 }
                 Told::LeftOpen(words) => assert!(!words.is_empty()),
             }
