@@ -16,7 +16,7 @@ from typing import Any, Protocol, TypeVar
 import numpy as np
 
 from .errors import InputError
-from .units import quantity
+from .units import number, quantity
 
 CONSTANT = "constant"
 """Name of the speed that stays."""
@@ -50,13 +50,10 @@ def history(given: Any) -> Corners:
     for pair in given:
         if isinstance(pair, str) or not isinstance(pair, Sequence) or len(pair) != 2:
             raise InputError.of("rotor_speed", pair, form)
-        t, share = quantity(pair[0], "s", "rotor_speed time"), pair[1]
-        if isinstance(share, bool) or not isinstance(share, int | float) or not SHARES[0] <= share <= SHARES[1]:
-            allowed = f"must be a number between {SHARES[0]:g} and {SHARES[1]:g}, the share of the nominal speed"
-            raise InputError.of("rotor_speed", share, allowed)
+        t, share = quantity(pair[0], "s", "rotor_speed time"), number("rotor_speed", pair[1], *SHARES)
         if not 0.0 <= t < math.inf or (corners and not t > corners[-1][0] + ROUNDING):
             raise InputError.of("rotor_speed time", pair[0], "must ascend strictly from 0 s")
-        corners.append((t, float(share)))
+        corners.append((t, share))
     if corners[0][1] != 1.0:
         raise InputError.of("rotor_speed", corners[0][1], "must begin at 1: the trim is at the nominal speed")
     return tuple(corners)
