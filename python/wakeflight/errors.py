@@ -5,6 +5,9 @@ from __future__ import annotations
 
 from typing import Any
 
+LONGEST = 640
+"""Longest message of an input error: a line that a person reads. What is beyond is left out of its middle."""
+
 
 class WakeflightError(Exception):
     """Base of every error this package raises on purpose; `exit_code` is that of the command line."""
@@ -17,11 +20,23 @@ class InputError(WakeflightError, ValueError):
 
     exit_code = 2
 
+    def __init__(self, message: str) -> None:
+        """Keep `message` as one line that can be printed."""
+        super().__init__(shortened(one_line(message), LONGEST))
+
     @classmethod
     def of(cls, field: str, value: object, allowed: str, file: object = None) -> InputError:
         """Error about one field: `file: field = value: allowed`."""
-        where = f"{file}: " if file is not None else ""
-        return cls(one_line(f"{where}{field} = {_shown(value)}: {allowed}"))
+        where = f"{shortened(str(file), 240)}: " if file is not None else ""
+        return cls(f"{where}{shortened(str(field), 120)} = {_shown(value)}: {allowed}")
+
+    def within(self, file: object) -> InputError:
+        """The same error with the file it is found in, said once."""
+        return self if str(file) in str(self) else type(self)(f"{shortened(str(file), 240)}: {self}")
+
+
+class ArgumentError(InputError, TypeError):
+    """Arguments that do not fit a function: one too many, one missing, one that it does not have."""
 
 
 class NumericalFailure(WakeflightError, RuntimeError):
@@ -37,12 +52,32 @@ class NumericalFailure(WakeflightError, RuntimeError):
         self.partial = partial
 
 
-def one_line(text: str) -> str:
-    """`text` with its line breaks and runs of blanks made single blanks."""
-    return " ".join(str(text).split())
+def one_line(text: object) -> str:
+    """`text` with line breaks and runs of blanks made single blanks, and what cannot be printed written as its escape.
+
+    Names come from files: an escape sequence of a terminal or a mark that turns the direction of writing stays visible text.
+    """
+    words = " ".join(str(text).split())
+    if words.isprintable():
+        return words
+    return "".join(each if each.isprintable() else ascii(each)[1:-1] for each in words)
+
+
+def shortened(text: str, width: int) -> str:
+    """`text`, of what is longer than `width` its begin and its end."""
+    if len(text) <= width:
+        return text
+    head = (width - 5) * 2 // 3
+    return f"{text[:head]} ... {text[head + 5 - width :]}"
 
 
 def _shown(value: object, width: int = 80) -> str:
-    """`value` as a person would type it, shortened."""
-    text = one_line(f"'{value}'" if isinstance(value, str) else str(value))
+    """`value` as a person would type it, shortened; what does not show itself, by its type."""
+    if isinstance(value, str | bytes):
+        # only what is shown is looked at: a value may have the length of a file
+        value = value[: 4 * width]
+    try:
+        text = one_line(f"'{value}'" if isinstance(value, str) else value)
+    except Exception:  # whatever another's object raises when it is printed
+        text = f"<{type(value).__name__}>"
     return text if len(text) <= width else text[: width - 3] + "..."

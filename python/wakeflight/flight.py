@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .arguments import checked
 from .errors import InputError, NumericalFailure
 from .flight_monitors import monitors
 from .inflow import InflowModel
@@ -106,6 +107,7 @@ class Sticks:
         return list(zip(ends[:-1], ends[1:], strict=True))
 
 
+@checked
 def fly(
     start: Trim,
     maneuver: Maneuver,

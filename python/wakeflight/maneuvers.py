@@ -21,9 +21,10 @@ from typing import Annotated, Any
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
+from .arguments import checked, with_checked_init
 from .errors import InputError, one_line
 from .references import known_keys
-from .text import read_toml
+from .text import is_file, read_toml
 from .units import number, quantity
 
 STICKS = ("lateral", "longitudinal", "collective", "pedal")
@@ -43,6 +44,7 @@ _Real = Annotated[float, Field(strict=True)]
 _Points = list[tuple[_Real, _Real]] | None
 
 
+@with_checked_init
 @dataclass(frozen=True)
 class Maneuver:
     """A stick history about trim.
@@ -55,7 +57,7 @@ class Maneuver:
     """
 
     name: str
-    corners_of: tuple[tuple[str, tuple[Corner, ...]], ...]
+    corners_of: Annotated[tuple[tuple[str, tuple[Corner, ...]], ...], Mapping[str, Any] | Sequence[Any]]
     revolutions: float | None = None
     seconds: float | None = None
     notes: str = ""
@@ -254,6 +256,7 @@ class Maneuver:
         return warnings
 
 
+@checked
 def arrested_descent(start: Any = None) -> Maneuver:
     """Arrested descent [ribera2004]: collective up by 3.7 in and back, 12 revolutions.
 
@@ -274,11 +277,13 @@ def arrested_descent(start: Any = None) -> Maneuver:
     return replace(maneuver, corners_of=moved)
 
 
+@checked
 def roll_reversal() -> Maneuver:
     """Roll reversal [ribera2004]: lateral stick right, left, right and back to trim, 36 revolutions."""
     return _shipped("roll-reversal")
 
 
+@checked
 def load_maneuver(name_or_path: str | Path) -> Maneuver:
     """Manoeuvre from a shipped name (`arrested-descent`, `roll-reversal`) or the path of a TOML file.
 
@@ -287,7 +292,7 @@ def load_maneuver(name_or_path: str | Path) -> Maneuver:
     if str(name_or_path) in SHIPPED:
         return _shipped(str(name_or_path))
     path = Path(name_or_path)
-    if not path.is_file():
+    if not is_file(path):
         allowed = f"no such manoeuvre; allowed: {', '.join(SHIPPED)} or the path of a manoeuvre file (.toml)"
         raise InputError.of("maneuver", str(name_or_path), allowed)
     return _read(path, shipped=False)

@@ -18,6 +18,7 @@ from typing import Any
 
 import numpy as np
 
+from .arguments import checked
 from .errors import InputError, NumericalFailure
 from .exchange import Exchange, exchange_of
 from .inflow import InflowModel, inflow_model, like
@@ -29,11 +30,13 @@ from .rotor_speed import CONSTANT, RotorSpeed, history
 from .snapshot import Snapshot
 from .stepping import Stepping
 from .trim import INCH, Trim
-from .units import quantity
+from .units import number, quantity
 from .views import html_table
 
 RTOL = 1e-5
 """Relative tolerance of the solver that the absolute ones belong to."""
+RTOLS = (1e-14, 0.1)
+"""Least and largest relative tolerance that can be asked for."""
 
 
 @dataclass(frozen=True)
@@ -103,6 +106,7 @@ class Simulation(Stepping):
     After a `NumericalFailure` a simulation is at no definite moment: restore a snapshot to go on.
     """
 
+    @checked
     def __init__(
         self,
         start: Trim,
@@ -145,6 +149,7 @@ class Simulation(Stepping):
             raise InputError.of("integrator", integrator, f"allowed: {', '.join(INTEGRATORS)}")
         if stabilator not in ("held", "scheduled"):
             raise InputError.of("stabilator", stabilator, "allowed: held, scheduled")
+        rtol = number("rtol", rtol, *RTOLS)
         self.start = start
         self.integrator, self.rtol, self.stabilator = integrator, rtol, stabilator
         solver = INTEGRATORS[integrator](model, rtol, atol_scale=rtol / RTOL)

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError
+from ..text import slug
 from .wake import typed_options
 
 if TYPE_CHECKING:
@@ -65,7 +66,7 @@ def request(
     if flown is not None:
         flown = flown.for_aircraft(loaded.stick_travel_in, float(loaded.rotor.omega))
         flown.check_span(loaded.stick_travel_in)
-    folder = writable(run.out if run.out is not None else Path("runs") / (flown.name if flown is not None else "run"))
+    folder = writable(run.out if run.out is not None else Path("runs") / slug(flown.name if flown is not None else ""))
     return Request(loaded, complete, model, folder, flown)
 
 
