@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from difflib import get_close_matches
 from typing import Any
 
 
@@ -22,6 +24,14 @@ class InputError(WakeflightError, ValueError):
         """Error about one field: `file: field = value: allowed`."""
         where = f"{file}: " if file is not None else ""
         return cls(one_line(f"{where}{field} = {_shown(value)}: {allowed}"))
+
+    @classmethod
+    def choice(cls, field: str, value: object, names: Iterable[str], more: str = "", file: object = None) -> InputError:
+        """Error about a field that takes one of `names`, the nearest of them first; more: what else is taken."""
+        known = list(names)
+        near = get_close_matches(str(value).lower(), known, n=1, cutoff=0.6)
+        meant = f"did you mean {near[0]}? " if near else ""
+        return cls.of(field, value, f"{meant}allowed: {', '.join(known)}{more}", file)
 
 
 class NumericalFailure(WakeflightError, RuntimeError):

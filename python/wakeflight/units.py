@@ -36,6 +36,7 @@ _DIMENSIONS = {
     "knots": (1852.0 / 3600.0, (0, 1, -1, 0)),
     "rad": (1.0, (0, 0, 0, 1)),
     "deg": (math.pi / 180.0, (0, 0, 0, 1)),
+    "°": (math.pi / 180.0, (0, 0, 0, 1)),
     "rev": (2.0 * math.pi, (0, 0, 0, 1)),
     "rpm": (math.pi / 30.0, (0, 0, -1, 1)),
     "kg": (1.0, (1, 0, 0, 0)),
@@ -49,8 +50,14 @@ _DIMENSIONS = {
     "hp": (550.0 * _FOOT * _POUND * STANDARD_GRAVITY, (1, 2, -3, 0)),
 }
 
-_TEXT = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*$")
-_UNIT = re.compile(r"([*/ ]?)\s*([A-Za-z]+|1)(?:\^|\*\*)?(-?\d+)?\s*")
+# thousands stand in groups of three behind one kind of separator; a comma before any other number of digits is no thousand
+_THOUSANDS = r"\d{1,3}(?:(?P<apart>[ ,'\u2019_])\d{3})(?:(?P=apart)\d{3})*(?:\.\d*)?"
+_TEXT = re.compile(
+    rf"\s*(?P<number>[+-]?(?:{_THOUSANDS}|\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)(?![\d,])\s*(?P<unit>.*?)\s*$"
+)
+_APART = re.compile(r"(?<=\d)[ ,'\u2019_](?=\d)")
+_TYPED = str.maketrans({"\u2212": "-", "\u2013": "-", "\u00a0": " ", "\u202f": " ", "\u2009": " "})
+_UNIT = re.compile(r"([*/ ]?)\s*([A-Za-z°]+|1)(?:\^|\*\*)?(-?\d+)?\s*")
 
 EXAMPLES = {
     "m/s": "'80 kt'",
@@ -117,6 +124,7 @@ def whole(field: str, value: Any, low: int, high: int) -> int:
 def quantity(value: Any, si_unit: str, field: str) -> float:
     """`value` (text with a unit, or a pint quantity) in `si_unit`, finite.
 
+    Text is taken as people write it: `-6 deg` with the typographic minus too, `5250 ft` as `5,250 ft` or `5 250 ft` too.
     field: name used in the error line.
     """
     example = EXAMPLES.get(si_unit, f"a number with a unit of {si_unit}")
@@ -126,11 +134,11 @@ def quantity(value: Any, si_unit: str, field: str) -> float:
         except Exception as reason:  # pint's DimensionalityError, without importing pint for it
             raise InputError.of(field, value, f"must have a unit of {si_unit}, for example {example}") from reason
     elif isinstance(value, str):
-        match = _TEXT.match(value)
-        if match is None or not match.group(2):
+        match = _TEXT.match(value.translate(_TYPED))
+        if match is None or not match["unit"]:
             raise InputError.of(field, value, f"must be a number with a unit, for example {example}")
         try:
-            number = convert(float(match.group(1)), match.group(2), si_unit)
+            number = convert(float(_APART.sub("", match["number"])), match["unit"], si_unit)
         except ValueError as reason:
             raise InputError.of(field, value, f"{reason}; allowed is for example {example}") from reason
     else:

@@ -38,8 +38,12 @@ def find(name_or_path: str | Path) -> Path:
         return Path(str(resources.files(__package__))) / str(name_or_path) / f"{name_or_path}.toml"
     path = Path(name_or_path)
     if not path.is_file():
-        allowed = f"no such file; allowed: {', '.join(SHIPPED)} or the path of an aircraft file (.toml)"
-        raise InputError.of("aircraft", str(name_or_path), allowed)
+        raise InputError.choice(
+            "aircraft",
+            str(name_or_path),
+            SHIPPED,
+            " or the path of an aircraft file (.toml), and there is no such file",
+        )
     return path
 
 
