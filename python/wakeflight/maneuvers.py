@@ -55,7 +55,8 @@ class Maneuver:
     """
 
     name: str
-    corners_of: tuple[tuple[str, tuple[Corner, ...]], ...]
+    # a mapping or pairs as given, pairs of tuples as kept
+    corners_of: Any
     revolutions: float | None = None
     seconds: float | None = None
     notes: str = ""
