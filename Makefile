@@ -32,8 +32,8 @@ test: $(STAMPS)/dev
 	cargo clippy $(CARGO_FLAGS) --workspace --all-targets --quiet -- -D warnings -D missing_docs
 	cargo test $(CARGO_FLAGS) --package wakeflight --quiet
 	@$(MAKE) --no-print-directory $(STAMPS)/package
-	$(BIN)/ruff check python tests validation docs/tools
-	$(BIN)/ruff format --check python tests validation docs/tools
+	$(BIN)/ruff check python tests validation docs/tools examples
+	$(BIN)/ruff format --check python tests validation docs/tools examples
 	$(BIN)/python -m pytest -m "not slow"
 
 validate: $(STAMPS)/dev $(STAMPS)/package

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from .airfoil_loop import airfoil_loop
     from .condition import FlightCondition, condition_for
     from .errors import InputError, NumericalFailure, WakeflightError
+    from .export import export
     from .flight import Flight, fly
     from .inflow import AnnularInflow, DynamicInflow, RelaxationWake, TimeMarchingWake, inflow_model
     from .maneuvers import Maneuver, arrested_descent, load_maneuver, roll_reversal
@@ -46,6 +47,7 @@ _HOME = {
     "InputError": "errors",
     "NumericalFailure": "errors",
     "WakeflightError": "errors",
+    "export": "export",
     "Flight": "flight",
     "fly": "flight",
     "AnnularInflow": "inflow",
@@ -95,6 +97,7 @@ __all__ = [
     "blade_modes",
     "condition_for",
     "converge",
+    "export",
     "fly",
     "induced_velocity",
     "inflow_model",

@@ -235,7 +235,7 @@ def _turn(turn: Any, load_factor: Any) -> str | None:
     if turn is None:
         return None
     if turn not in TURNS:
-        raise InputError.of("turn", turn, f"allowed: {', '.join(TURNS)}")
+        raise InputError.choice("turn", turn, TURNS)
     if load_factor is None:
         raise InputError.of("turn", turn, "belongs to a load factor, and none is given")
     return turn
@@ -296,7 +296,7 @@ def target(
 ) -> Target | None:
     """The target of a trim in a complete condition, from text with units or pint quantities; None where nothing is asked."""
     if free is not None and free not in FREE:
-        raise InputError.of("free", free, f"allowed: {', '.join(FREE)}")
+        raise InputError.choice("free", free, FREE)
     given = {name: value for name, value in (("power", power), ("collective", collective)) if value is not None}
     if not given:
         if free is not None:

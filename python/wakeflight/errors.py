@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from difflib import get_close_matches
 from typing import Any
 
 LONGEST = 640
@@ -37,6 +39,14 @@ class InputError(WakeflightError, ValueError):
 
 class ArgumentError(InputError, TypeError):
     """Arguments that do not fit a function: one too many, one missing, one that it does not have."""
+
+    @classmethod
+    def choice(cls, field: str, value: object, names: Iterable[str], more: str = "", file: object = None) -> InputError:
+        """Error about a field that takes one of `names`, the nearest of them first; more: what else is taken."""
+        known = list(names)
+        near = get_close_matches(str(value).lower(), known, n=1, cutoff=0.6)
+        meant = f"did you mean {near[0]}? " if near else ""
+        return cls.of(field, value, f"{meant}allowed: {', '.join(known)}{more}", file)
 
 
 class NumericalFailure(WakeflightError, RuntimeError):

@@ -18,7 +18,7 @@ from .inflow import InflowModel
 from .maneuvers import ROUNDING, Maneuver
 from .model import Model
 from .monitors import warnings as monitored
-from .progress import Progress, Silent
+from .progress import Reported, heard, reporting
 from .recorder import Recorder
 from .rotor_speed import CONSTANT, RotorSpeed, unflown
 from .simulation import RTOL, Simulation
@@ -107,6 +107,7 @@ class Sticks:
         return list(zip(ends[:-1], ends[1:], strict=True))
 
 
+@reporting
 @checked
 def fly(
     start: Trim,
@@ -114,7 +115,7 @@ def fly(
     inflow: str | InflowModel | None = None,
     revolutions: float | None = None,
     integrator: str = "ida",
-    progress: Progress | Silent | None = None,
+    progress: Reported = None,
     rtol: float = RTOL,
     stabilator: str = "held",
     rotor_speed: RotorSpeed = CONSTANT,
@@ -135,7 +136,7 @@ def fly(
     speed is flown as `Maneuver.for_aircraft` makes it; the Flight holds it as flown. A numerical failure raises
     `NumericalFailure` whose `partial` is the Flight so far.
     """
-    progress = progress or Silent()
+    progress = heard(progress)
     begun = time.perf_counter()
     sim = Simulation.prepared(start, inflow, integrator, rtol, stabilator, rotor_speed)
     model, clock = sim.model, sim.clock

@@ -289,7 +289,7 @@ def inflow_model(inflow: Any = "time-marching", known: Mapping[str, type[Inflow]
         return inflow
     if isinstance(inflow, str) and inflow in known:
         return known[inflow]()
-    raise InputError.of("inflow", inflow, f"allowed: {', '.join(known)}, or a configured model")
+    raise InputError.choice("inflow", inflow, known, ", or a configured model")
 
 
 def trim_model(model: InflowModel) -> InflowModel:

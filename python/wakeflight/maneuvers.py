@@ -293,8 +293,12 @@ def load_maneuver(name_or_path: str | Path) -> Maneuver:
         return _shipped(str(name_or_path))
     path = Path(name_or_path)
     if not is_file(path):
-        allowed = f"no such manoeuvre; allowed: {', '.join(SHIPPED)} or the path of a manoeuvre file (.toml)"
-        raise InputError.of("maneuver", str(name_or_path), allowed)
+        raise InputError.choice(
+            "maneuver",
+            str(name_or_path),
+            SHIPPED,
+            " or the path of a manoeuvre file (.toml), and there is no such file",
+        )
     return _read(path, shipped=False)
 
 
@@ -382,7 +386,7 @@ def _check_history(given: Any) -> None:
         raise InputError.of("corners_of", given, "must hold a pair (stick, corners) for each stick that moves")
     stick, corners = given
     if stick not in STICKS:
-        raise InputError.of("controls", stick, f"allowed: {', '.join(STICKS)}")
+        raise InputError.choice("controls", stick, STICKS)
     for corner in corners if isinstance(corners, tuple | list) else [corners]:
         if not isinstance(corner, tuple | list) or len(corner) != 2:
             raise InputError.of(stick, corner, "must hold pairs of numbers (time s, inches from trim)")

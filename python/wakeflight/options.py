@@ -82,7 +82,7 @@ class Option:
             return None
         if self.kind == "word":
             if not isinstance(value, str) or value not in self.words:
-                raise InputError.of(self.name, value, f"allowed: {', '.join(self.words)}")
+                raise InputError.choice(self.name, value, self.words)
             return value
         if self.kind == "switch":
             if not isinstance(value, bool):

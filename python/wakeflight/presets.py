@@ -52,6 +52,6 @@ PRESETS: dict[str, dict[str, Any]] = {
 def preset(model: str, name: str) -> dict[str, Any]:
     """Options of the preset `name` for the model of that name."""
     if name not in PRESETS:
-        raise InputError.of("preset", name, f"allowed: {', '.join(PRESETS)}")
+        raise InputError.choice("preset", name, PRESETS)
     known = options_of(model)
     return {option: value for option, value in PRESETS[name].items() if option in known}

@@ -3,10 +3,15 @@
 
 from __future__ import annotations
 
+import functools
 import sys
 import time
+from collections.abc import Callable
 from types import TracebackType
-from typing import Any, TextIO
+from typing import Any, ParamSpec, TextIO, TypeVar
+
+Arguments = ParamSpec("Arguments")
+Result = TypeVar("Result")
 
 
 class Progress:
@@ -15,14 +20,14 @@ class Progress:
     On a terminal one bar per phase with time left, elsewhere at most ten lines per phase.
     """
 
-    def __init__(self, stream: TextIO | None = None) -> None:
-        """Report to `stream`, the standard error by default."""
+    def __init__(self, stream: TextIO | None = None, bars: bool = True) -> None:
+        """Report to `stream`, the standard error by default; without `bars` plain lines on a terminal too."""
         self._stream = stream or sys.stderr
         self._bars: Any = None
         self._task: Any = None
         self._name, self._total, self._done = "", None, 0.0
         self._start = self._next_line = 0.0
-        if self._stream.isatty():
+        if bars and self._stream.isatty():
             from rich.console import Console
             from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeRemainingColumn
             from rich.progress import Progress as Bars
@@ -98,3 +103,28 @@ class Silent:
 
     def advance(self, n: float = 1.0, text: str = "") -> None:
         """Report steps done."""
+
+
+Reported = Progress | Silent | bool | None
+"""What a verb takes as `progress`: True shows it on the standard error, None and False show nothing."""
+
+
+def heard(progress: Reported) -> Progress | Silent:
+    """Where a verb reports, from what it was given as `progress`."""
+    if progress is True:
+        return Progress(bars=False)
+    return progress or Silent()
+
+
+def reporting(verb: Callable[Arguments, Result]) -> Callable[Arguments, Result]:
+    """A verb whose `progress=True` shows a display from its beginning to its end."""
+
+    @functools.wraps(verb)
+    def shown(*args: Arguments.args, **kwargs: Arguments.kwargs) -> Result:
+        if kwargs.get("progress") is not True:
+            return verb(*args, **kwargs)
+        with Progress() as display:
+            kwargs["progress"] = display
+            return verb(*args, **kwargs)
+
+    return shown

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from typing import TYPE_CHECKING, Any
 
@@ -249,6 +250,7 @@ class Recorder:
             "radius": model.rotor["radius"],
             "omega": model.omega,
             "blade_modes": mode_labels(start.aircraft),
+            "geometry": json.dumps(start.aircraft.geometry),
             "configuration": configuration,
             "condition": start.condition.as_attributes(),
             "ct": mean["ct"],

@@ -25,7 +25,7 @@ from .inflow import InflowModel, inflow_model, like
 from .integrators import INTEGRATORS
 from .maneuvers import STICKS
 from .model import Model, flight_regime
-from .progress import Progress, Silent
+from .progress import Progress, Reported, Silent, heard
 from .rotor_speed import CONSTANT, RotorSpeed, history
 from .snapshot import Snapshot
 from .stepping import Stepping
@@ -117,12 +117,12 @@ class Simulation(Stepping):
         rtol: float = RTOL,
         stabilator: str = "held",
         rotor_speed: RotorSpeed = CONSTANT,
-        progress: Progress | Silent | None = None,
+        progress: Reported = None,
     ):
         if control is not None:
             raise InputError.of("control", control, "allowed: None, sticks come with every step")
         self._prepare(start, flight_model(start, inflow, rotor_speed), integrator, rtol, stabilator)
-        self.converge(progress or Silent())
+        self.converge(heard(progress))
 
     @classmethod
     def prepared(
@@ -146,7 +146,7 @@ class Simulation(Stepping):
     def _prepare(self, start: Trim, model: Model, integrator: str, rtol: float, stabilator: str) -> None:
         """Everything but the exchange."""
         if integrator not in INTEGRATORS:
-            raise InputError.of("integrator", integrator, f"allowed: {', '.join(INTEGRATORS)}")
+            raise InputError.choice("integrator", integrator, INTEGRATORS)
         if stabilator not in ("held", "scheduled"):
             raise InputError.of("stabilator", stabilator, "allowed: held, scheduled")
         rtol = number("rtol", rtol, *RTOLS)

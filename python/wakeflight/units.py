@@ -36,6 +36,7 @@ _DIMENSIONS = {
     "knots": (1852.0 / 3600.0, (0, 1, -1, 0)),
     "rad": (1.0, (0, 0, 0, 1)),
     "deg": (math.pi / 180.0, (0, 0, 0, 1)),
+    "°": (math.pi / 180.0, (0, 0, 0, 1)),
     "rev": (2.0 * math.pi, (0, 0, 0, 1)),
     "rpm": (math.pi / 30.0, (0, 0, -1, 1)),
     "kg": (1.0, (1, 0, 0, 0)),
@@ -49,14 +50,20 @@ _DIMENSIONS = {
     "hp": (550.0 * _FOOT * _POUND * STANDARD_GRAVITY, (1, 2, -3, 0)),
 }
 
-_TEXT = re.compile(r"([+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)\s*(.*)")
-_UNIT = re.compile(r"([*/ ]?)\s*([A-Za-z]+|1)(?:\^|\*\*)?(-?[0-9]+)?\s*")
-
 LONGEST = 80
 """Longest text of a quantity or a unit: the longest in use, `slug ft2/s`-like products, have twenty characters."""
 
 HIGHEST_POWER = 9
 """Highest power of a unit that is read: moments of area, the highest in mechanics, have four."""
+
+# thousands stand in groups of three behind one kind of separator; a comma before any other number of digits is no thousand
+_THOUSANDS = r"[0-9]{1,3}(?:(?P<apart>[ ,'\u2019_])[0-9]{3})(?:(?P=apart)[0-9]{3})*(?:\.[0-9]*)?"
+_TEXT = re.compile(
+    rf"(?P<number>[+-]?(?:{_THOUSANDS}|[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)(?![0-9,])\s*(?P<unit>.*)"
+)
+_APART = re.compile(r"(?<=[0-9])[ ,'\u2019_](?=[0-9])")
+_TYPED = str.maketrans({"\u2212": "-", "\u2013": "-", "\u00a0": " ", "\u202f": " ", "\u2009": " "})
+_UNIT = re.compile(r"([*/ ]?)\s*([A-Za-z°]+|1)(?:\^|\*\*)?(-?[0-9]+)?\s*")
 
 # what is handed to pint: names, `*`, `/`, blanks, one level of brackets, and powers that are one small number each
 _BETWEEN = r"(?:\s*+[*/·]\s*+|\s++)"
@@ -129,6 +136,7 @@ def whole(field: str, value: Any, low: int, high: int) -> int:
 def quantity(value: Any, si_unit: str, field: str) -> float:
     """`value` (text with a unit, or a pint quantity) in `si_unit`, finite.
 
+    Text is taken as people write it: `-6 deg` with the typographic minus too, `5250 ft` as `5,250 ft` or `5 250 ft` too.
     field: name used in the error line.
     """
     example = EXAMPLES.get(si_unit, f"a number with a unit of {si_unit}")
@@ -138,11 +146,11 @@ def quantity(value: Any, si_unit: str, field: str) -> float:
         except Exception as reason:  # pint's DimensionalityError, without importing pint for it
             raise InputError.of(field, value, f"must have a unit of {si_unit}, for example {example}") from reason
     elif isinstance(value, str):
-        match = _TEXT.fullmatch(value.strip()) if len(value) <= LONGEST else None
-        if match is None or not match.group(2):
+        match = _TEXT.fullmatch(value.strip().translate(_TYPED)) if len(value) <= LONGEST else None
+        if match is None or not match["unit"]:
             raise InputError.of(field, value, f"must be a number with a unit, for example {example}")
         try:
-            number = convert(float(match.group(1)), match.group(2), si_unit)
+            number = convert(float(_APART.sub("", match["number"])), match["unit"], si_unit)
         except ValueError as reason:
             raise InputError.of(field, value, f"{reason}; allowed is for example {example}") from reason
     else:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """Command line: whatever is wrong gets one line and exit code 2, and nothing is started."""
 
+import os
 import shutil
 import subprocess
 import sys
@@ -113,6 +114,17 @@ def _nothing_starts(monkeypatch):
         (["modes", "--aircraft", "uh61"], "uh61"),
         (["modes", "--modes", "0"], "--modes"),
         (["report", "/nowhere/run.nc"], "/nowhere/run.nc"),
+        (["export", "/nowhere/run.nc"], "/nowhere/run.nc"),
+        (["export", __file__, "--to", "matlab"], "did you mean mat?"),
+        (["list", "aircrafts"], "did you mean aircraft?"),
+        (["run", "/nowhere/case.toml"], "/nowhere/case.toml"),
+        ([*FLY, "--aircraft", "uh6oa"], "did you mean uh60a?"),
+        (["fly", "roll-reverse"], "did you mean roll-reversal?"),
+        ([*FLY, "--inflow", "relaxtion"], "did you mean relaxation?"),
+        ([*FLY, "--wake-scheme", "bdf"], "did you mean bdf2?"),
+        ([*FLY, "--wake", "papers"], "did you mean paper?"),
+        ([*FLY, "--figure-format", "jpg"], "--figure-format"),
+        (["trimm"], "Did you mean 'trim'"),
     ],
 )
 def test_bad_input_is_one_line_and_exit_code_2(capsys, arguments, named):
@@ -209,7 +221,7 @@ def test_a_failed_flight_is_saved_before_exit_code_3(monkeypatch, tmp_path):
         failure = "flight: no step possible at 1.2 s"
 
     monkeypatch.undo()
-    monkeypatch.setattr(outcome, "save_flight", lambda flight, out, progress: saved.append(out))
+    monkeypatch.setattr(outcome, "save_flight", lambda flight, out, progress, drawing: saved.append(out))
     monkeypatch.setitem(sys.modules, "wakeflight.trim", _module(trim=lambda *a, **k: "start"))
     monkeypatch.setitem(sys.modules, "wakeflight.flight", _module(fly=lambda *a, **k: Flight()))
     with pytest.raises(SystemExit) as caught:
@@ -234,8 +246,120 @@ def test_help_needs_no_heavy_import():
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
-    for command in ("fly", "compare", "trim", "modes", "tunnel", "report", "validate", "converge", "paper"):
+    for command in (
+        "fly",
+        "compare",
+        "trim",
+        "modes",
+        "tunnel",
+        "report",
+        "validate",
+        "converge",
+        "paper",
+        "run",
+        "list",
+    ):
         assert command in done.stdout
+
+
+def test_the_version_is_told(capsys):
+    code, out, err = _run(capsys, ["--version"])
+    assert (code, err) == (0, "")
+    assert out.startswith("wakeflight ")
+
+
+def test_what_there_is_is_listed_by_name(capsys):
+    code, out, _ = _run(capsys, ["list", "--cases", str(Path(__file__).resolve().parents[2] / "validation")])
+    assert code == 0
+    for name in (
+        "uh60a",
+        "bo105",
+        "arrested-descent",
+        "roll-reversal",
+        "time-marching",
+        "annular",
+        "paper",
+        "vtk",
+        "H01",
+    ):
+        assert f"  {name} " in out
+
+
+def test_a_shell_completes_commands_and_values():
+    def completed(*words):
+        asked = {
+            "_WAKEFLIGHT_COMPLETE": "complete_bash",
+            "COMP_WORDS": " ".join(words),
+            "COMP_CWORD": str(len(words) - 1),
+        }
+        command = [sys.executable, "-m", "wakeflight"]
+        return subprocess.run(
+            command, env={**os.environ, **asked}, capture_output=True, text=True, check=False
+        ).stdout.split()
+
+    assert completed("wakeflight", "tr") == ["trim"]
+    assert completed("wakeflight", "fly", "roll") == ["roll-reversal"]
+    assert completed("wakeflight", "trim", "--inflow", "re") == ["relaxation"]
+
+
+CASE = """
+command = "fly"
+aircraft = "bo105"
+integrator = "fixed"
+[condition]
+speed = "60 kt"
+flight_path = "0 deg"
+[inflow]
+model = "time-marching"
+preset = "paper"
+turns = 3
+[maneuver]
+duration = { seconds = 0.5 }
+controls = { longitudinal = [[0.1, 0.0], [0.2, 0.5], [0.4, 0.0]] }
+[outputs]
+folder = "FOLDER"
+figures = false
+"""
+
+
+def test_a_case_file_asks_for_what_its_options_would(capsys, monkeypatch, tmp_path):
+    seen = {}
+
+    def record(request, revolutions, integrator, out, progress):
+        seen.update(request=request, integrator=integrator, out=out)
+
+    monkeypatch.setattr(outcome, "fly_once", record)
+    path = tmp_path / "pulse.toml"
+    path.write_text(CASE.replace("FOLDER", str(tmp_path / "out")))
+    code, out, _ = _run(capsys, ["run", str(path)])
+    request = seen["request"]
+    assert code == 0
+    # the condition is told, what was given before what the aircraft's file gives
+    assert out == "BO-105: speed 60 kt, flight path 0 deg; of its file: altitude 0 ft, weight 4850.17 lbf\n"
+    assert (request.aircraft.name, seen["integrator"], seen["out"]) == ("BO-105", "fixed", tmp_path / "out")
+    assert (request.inflow.turns, request.inflow.trailers, request.drawing.figures) == (3, "tip", False)
+    assert (request.maneuver.name, request.maneuver.seconds) == ("pulse", 0.5)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "named"),
+    [
+        ("speed =", "sped =", "key of [condition] = 'sped': did you mean speed?"),
+        ('"60 kt"', "60", "speed = '60'"),
+        ('"fly"', '"fli"', "command = 'fli': did you mean fly?"),
+        ("turns = 3", "turn = 3", "nearest: turns"),
+        ("figures = false", 'export = "matlab"', "did you mean mat?"),
+        ('aircraft = "bo105"', 'plane = "bo105"', "key = 'plane'"),
+        ("[inflow]", "[inflow", "not readable as TOML"),
+    ],
+)
+def test_a_wrong_case_file_is_one_line_that_names_it(capsys, tmp_path, old, new, named):
+    path = tmp_path / "wrong.toml"
+    path.write_text(CASE.replace("FOLDER", str(tmp_path / "out")).replace(old, new))
+    code, out, err = _run(capsys, ["run", str(path)])
+    assert (code, out, err.count("\n")) == (2, "", 1)
+    assert str(path) in err
+    assert named in err
 
 
 VEHICLE = ["aircraft", "loading", "condition"]

@@ -22,6 +22,13 @@ from wakeflight.units import STANDARD_GRAVITY, convert, mass_of_weight, quantity
         ("258 rpm", "rad/s", 258 * 2 * math.pi / 60),
         ("36 km/h", "m/s", 10.0),
         ("0.5 s", "s", 0.5),
+        # as word processors and spreadsheets write them
+        ("\u22126 deg", "rad", math.radians(-6)),
+        ("\u22126\u00b0", "rad", math.radians(-6)),
+        ("5,250 ft", "m", 1600.2),
+        ("5\u202f250 ft", "m", 1600.2),
+        ("16\u2019000.5 lbf", "N", 16000.5 * 0.45359237 * STANDARD_GRAVITY),
+        ("1 000 000 N", "N", 1e6),
     ],
 )
 def test_text_with_a_unit_becomes_si(text, si_unit, expected):
@@ -81,3 +88,9 @@ def test_an_angle_is_not_a_plain_number():
     # a stiffness per radian is not a moment
     with pytest.raises(ValueError, match="N m"):
         convert(1.0, "N m", "N m/rad")
+
+
+@pytest.mark.parametrize("text", ["5,25 ft", "5,2500 ft", "1234,567 ft", "1,234 567 ft", "12,34,567 ft", "5250, ft"])
+def test_a_comma_that_separates_no_thousands_is_refused(text):
+    with pytest.raises(InputError, match="altitude"):
+        quantity(text, "m", "altitude")

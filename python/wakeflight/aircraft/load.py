@@ -41,8 +41,12 @@ def find(name_or_path: str | Path) -> Path:
         return folder_of(str(name_or_path)) / f"{name_or_path}.toml"
     path = Path(name_or_path)
     if not is_file(path):
-        allowed = f"no such file; allowed: {', '.join(SHIPPED)} or the path of an aircraft file (.toml)"
-        raise InputError.of("aircraft", str(name_or_path), allowed)
+        raise InputError.choice(
+            "aircraft",
+            str(name_or_path),
+            SHIPPED,
+            " or the path of an aircraft file (.toml), and there is no such file",
+        )
     return path
 
 

@@ -238,6 +238,25 @@ class Aircraft:
         return lateral, longitudinal, collective, pedal
 
     @property
+    def geometry(self) -> dict[str, Any]:
+        """Place and shape of the rotor, for drawings and exports: a run keeps it.
+
+        hub: place in body axes from the centre of gravity [m]; shaft_tilt: forward, to the right [rad]; rotation: 1 counter-
+        clockwise seen from above, -1 clockwise; hinge_offset, root_cutout, chord (at 0.75 R) [m]; stick_travel: of lateral,
+        longitudinal, collective, pedal [in].
+        """
+        rotor = self.core_data()["rotor"]
+        return {
+            "hub": list(rotor["position"]),
+            "shaft_tilt": [rotor["shaft_tilt_forward"], rotor["shaft_tilt_lateral"]],
+            "rotation": {"ccw": 1, "cw": -1}[rotor["rotation"]],
+            "hinge_offset": float(self.rotor.blade.root_station),
+            "root_cutout": float(self.rotor.blade.root_cutout),
+            "chord": self.chord,
+            "stick_travel": list(self.stick_travel_in),
+        }
+
+    @property
     def limits(self) -> Limits:
         """What the file states of the aircraft's limits."""
         stated = self._spec.limits

@@ -8,15 +8,16 @@ failure (what was computed is kept).
 from __future__ import annotations
 
 import sys
+from typing import Annotated
 
 import typer
 
 from ..errors import NumericalFailure, WakeflightError, one_line
-from . import compare, converge, fly, modes, paper, report, trim, tunnel, validate
+from . import case, compare, converge, export, fly, listing, modes, paper, report, trim, tunnel, validate
 from .groups import expanded
 
 app = typer.Typer(
-    add_completion=False,
+    add_completion=True,
     no_args_is_help=True,
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
@@ -33,9 +34,34 @@ for _command in (
     validate.validate,
     tunnel.tunnel,
     paper.paper,
+    export.export,
 ):
     # in the order in which help lists them
     app.command()(expanded(_command))
+app.command("run")(case.case)
+app.command("list")(listing.listing)
+
+
+def _version(asked: bool) -> None:
+    """Print the version and end."""
+    if asked:
+        from importlib.metadata import PackageNotFoundError
+        from importlib.metadata import version as installed
+
+        try:
+            print(f"wakeflight {installed('wakeflight')}")
+        except PackageNotFoundError:
+            print("wakeflight, run from a source tree")
+        raise typer.Exit
+
+
+@app.callback()
+def _everywhere(
+    version: Annotated[
+        bool, typer.Option("--version", help="Show the version and exit.", callback=_version, is_eager=True)
+    ] = False,
+) -> None:
+    """Helicopters in unsteady manoeuvres with a time-accurate free vortex wake."""
 
 
 def main(arguments: list[str] | None = None) -> None:

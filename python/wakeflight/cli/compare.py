@@ -7,7 +7,7 @@ from typing import Any
 
 from ..errors import NumericalFailure
 from . import outcome
-from .groups import Integrator, ManeuverName, Revolutions, Run, Straight, Vehicle, Wake
+from .groups import Drawing, Integrator, ManeuverName, Revolutions, Run, Straight, Vehicle, Wake
 from .request import check_flight, request
 
 
@@ -19,6 +19,7 @@ def compare(
     revolutions: Revolutions = None,
     wake: Wake,
     integrator: Integrator = "ida",
+    drawing: Drawing,
     run: Run,
 ) -> None:
     """Fly the same manoeuvre with all three inflow models and state the cost of each."""
@@ -26,7 +27,8 @@ def compare(
     from ..progress import Progress
 
     check_flight(revolutions, integrator)
-    requests = [request(vehicle, given, name, wake, run, maneuver, lenient=True) for name in MODELS]
+    requests = [request(vehicle, given, name, wake, run, maneuver, lenient=True, drawing=drawing) for name in MODELS]
+    print(requests[0].told(), flush=True)
     runs: dict[str, Any] = {}
     failures, lines = [], [f"{'inflow':<15}{'trim s':>9}{'flight s':>10}{'total s':>9}"]
     with Progress() as progress:
@@ -45,9 +47,10 @@ def compare(
                 f"{attributes.get('seconds_total', 0.0):>9.1f}"
             )
     print("\n".join(lines))
-    if len(runs) > 1:
+    if len(runs) > 1 and drawing.figures:
         from .. import report as reports
 
-        print(f"wrote {reports.write(runs, outcome.folder_made(requests[0].out))}, the models side by side")
+        page = reports.write(runs, outcome.folder_made(requests[0].out), figure_format=drawing.figure_format)
+        print(f"wrote {page}, the models side by side")
     if failures:
         raise NumericalFailure("; ".join(failures))

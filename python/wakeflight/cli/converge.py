@@ -53,6 +53,7 @@ def converge(
     base: dict[str, Any]
     if repeated == "tunnel":
         set_threads(run.threads)
+        told = f"rotor on the stand: {rotor or vehicle.aircraft}"
         flown, base = _on_stand(rotor or vehicle.aircraft, given, stand, inflow, wake)
         writable(folder)
     else:
@@ -60,6 +61,7 @@ def converge(
         if foreign:
             raise InputError.of("run", repeated, f"{foreign} belongs to the run tunnel")
         asked = request(vehicle, given, inflow, wake, replace(run, out=folder))
+        told = asked.told()
         flown, base = asked.aircraft, {"condition": asked.condition, "inflow": asked.inflow}
     with Progress() as progress:
         study = study_of(
@@ -72,7 +74,7 @@ def converge(
             progress=progress,
             **base,
         )
-    print(study.table())
+    print(f"{told}\n{study.table()}")
     study.save(folder_made(folder))
     style.save(convergence.figure(study.data), folder / "converge.png")
     print(f"wrote converge.nc, .csv, .md and .png in {folder}")

@@ -14,15 +14,65 @@ import typer
 
 from ..options import choices, described
 
+
+def offered(*words: str) -> Callable[[str], list[str]]:
+    """What a shell completes for an option: those of `words` that begin as what is typed."""
+    return lambda incomplete: [word for word in words if word.startswith(incomplete)]
+
+
+def told(flag: str, text: str, default: str) -> Any:
+    """An option whose default is told in words: that of the aircraft, the manoeuvre, the regime."""
+    return typer.Option(flag, help=text, show_default=default)
+
+
+OF_AIRCRAFT = "the aircraft's own"
 ManeuverName = Annotated[
-    str, typer.Argument(metavar="MANEUVER", help="arrested-descent, roll-reversal, or a TOML file")
+    str,
+    typer.Argument(
+        metavar="MANEUVER",
+        help="arrested-descent, roll-reversal, or a TOML file",
+        autocompletion=offered("arrested-descent", "roll-reversal"),
+    ),
 ]
-AircraftName = Annotated[str, typer.Option("--aircraft", metavar="NAME|FILE", help="uh60a, bo105, or an aircraft file")]
-InflowName = Annotated[str, typer.Option("--inflow", help="time-marching, relaxation, dynamic")]
-Revolutions = Annotated[float | None, typer.Option("--revolutions", help="revolutions to fly; the manoeuvre's own")]
-Integrator = Annotated[str, typer.Option("--integrator", help="ida, fixed")]
-Blades = Annotated[str | None, typer.Option("--blades", help="rigid, flexible; the aircraft's own")]
-Out = Annotated[Path | None, typer.Option("--out", help="folder for results")]
+AircraftName = Annotated[
+    str,
+    typer.Option(
+        "--aircraft",
+        metavar="NAME|FILE",
+        help="uh60a, bo105, or an aircraft file",
+        autocompletion=offered("uh60a", "bo105"),
+    ),
+]
+InflowName = Annotated[
+    str,
+    typer.Option(
+        "--inflow",
+        help="time-marching, relaxation, dynamic",
+        autocompletion=offered("time-marching", "relaxation", "dynamic"),
+    ),
+]
+Revolutions = Annotated[float | None, told("--revolutions", "revolutions to fly", "the manoeuvre's own")]
+Integrator = Annotated[str, typer.Option("--integrator", help="ida, fixed", autocompletion=offered("ida", "fixed"))]
+Blades = Annotated[
+    str | None,
+    typer.Option(
+        "--blades",
+        help="rigid, flexible",
+        show_default=OF_AIRCRAFT,
+        autocompletion=offered("rigid", "flexible"),
+    ),
+]
+Out = Annotated[Path | None, told("--out", "folder for results", "runs/ and a name")]
+
+
+FigureFormat = Annotated[
+    str,
+    typer.Option(
+        "--figure-format",
+        help="png, svg, pdf: files of this format too",
+        autocompletion=offered("png", "svg", "pdf"),
+    ),
+]
 
 
 class Group:
@@ -39,48 +89,53 @@ class Vehicle(Group):
     """The aircraft, and what its file names."""
 
     aircraft: AircraftName = "uh60a"
-    loading: Annotated[str | None, typer.Option("--loading", help="named mass and c.g. of the aircraft file")] = None
-    condition: Annotated[str | None, typer.Option("--condition", help="named condition of the aircraft file")] = None
+    loading: Annotated[str | None, told("--loading", "named mass and c.g. of the aircraft file", OF_AIRCRAFT)] = None
+    condition: Annotated[str | None, told("--condition", "named condition of the aircraft file", OF_AIRCRAFT)] = None
 
 
 @dataclass(frozen=True)
 class Straight(Group):
     """Arguments of a FlightCondition: speed, path, altitude, weight."""
 
-    speed: Annotated[str | None, typer.Option("--speed", help='true airspeed, "80 kt"')] = None
-    flight_path: Annotated[str | None, typer.Option("--flight-path", help='climb +, "-6 deg"')] = None
-    altitude: Annotated[str | None, typer.Option("--altitude", help='standard atmosphere, "5250 ft"')] = None
-    weight: Annotated[str | None, typer.Option("--weight", help='"16000 lbf"; lb and kg are masses')] = None
+    speed: Annotated[str | None, told("--speed", 'true airspeed, "80 kt"', OF_AIRCRAFT)] = None
+    flight_path: Annotated[str | None, told("--flight-path", 'climb +, "-6 deg"', OF_AIRCRAFT)] = None
+    altitude: Annotated[str | None, told("--altitude", 'standard atmosphere, "5250 ft"', OF_AIRCRAFT)] = None
+    weight: Annotated[str | None, told("--weight", '"16000 lbf"; lb and kg are masses', OF_AIRCRAFT)] = None
 
 
 @dataclass(frozen=True)
 class Condition(Straight):
     """All arguments of a FlightCondition: sideslip and turns as well."""
 
-    sideslip: Annotated[str | None, typer.Option("--sideslip", help='wind from the right +, "5 deg"')] = None
-    turn_rate: Annotated[str | None, typer.Option("--turn-rate", help='to the right +, "3 deg/s"')] = None
-    bank: Annotated[str | None, typer.Option("--bank", help='to the right +, "10 deg"')] = None
+    sideslip: Annotated[str | None, told("--sideslip", 'wind from the right +, "5 deg"', "found by trim or 0")] = None
+    turn_rate: Annotated[str | None, told("--turn-rate", 'to the right +, "3 deg/s"', "0 deg/s")] = None
+    bank: Annotated[str | None, told("--bank", 'to the right +, "10 deg"', "0 or found by trim")] = None
     load_factor: Annotated[float | None, typer.Option("--load-factor", help="of a turn whose rate is found, 1.5")] = (
         None
     )
-    turn: Annotated[str | None, typer.Option("--turn", help="direction of that turn: right, left")] = None
+    turn: Annotated[str | None, told("--turn", "direction of that turn: right, left", "right")] = None
 
 
 @dataclass(frozen=True)
 class Wake(Group):
     """Options of the inflow model; `request.inflow_from` makes the model of them."""
 
-    azimuth_step: Annotated[str | None, typer.Option("--azimuth-step", help='divides 360 deg / blades, "10 deg"')] = (
-        None
-    )
-    wake_turns: Annotated[
-        float | None, typer.Option("--wake-turns", help=f"turns of free wake; {described('turns')}")
+    azimuth_step: Annotated[
+        str | None,
+        typer.Option(
+            "--azimuth-step", help='divides 360 deg / blades, "10 deg"', show_default=described("azimuth_step")
+        ),
     ] = None
-    wake_scheme: Annotated[str | None, typer.Option("--wake-scheme", help=choices("scheme"))] = None
+    wake_turns: Annotated[float | None, told("--wake-turns", "turns of free wake", described("turns"))] = None
+    wake_scheme: Annotated[str | None, told("--wake-scheme", choices("scheme"), described("scheme"))] = None
     wake: Annotated[
         list[str] | None,
         typer.Option(
-            "--wake", metavar="PRESET|NAME=VALUE", help="standard, paper, reference, or any option; repeatable"
+            "--wake",
+            metavar="PRESET|NAME=VALUE",
+            help="standard, paper, reference, or any option; repeatable",
+            show_default="standard",
+            autocompletion=offered("standard", "paper", "reference"),
         ),
     ] = None
 
@@ -89,8 +144,19 @@ class Wake(Group):
 class Run(Group):
     """How it runs and where results go."""
 
-    threads: Annotated[int | None, typer.Option("--threads", help="threads of the physics core")] = None
+    threads: Annotated[
+        int | None,
+        told("--threads", "threads of the physics core", "WAKEFLIGHT_THREADS or 1"),
+    ] = None
     out: Out = None
+
+
+@dataclass(frozen=True)
+class Drawing(Group):
+    """Whether figures and report are made, and in which format figures are written."""
+
+    figures: Annotated[bool, typer.Option("--figures/--no-figures", help="draw figures and write the report")] = True
+    figure_format: FigureFormat = "png"
 
 
 def expanded(command: Callable[..., None]) -> Callable[..., None]:

@@ -11,6 +11,7 @@ from ..errors import InputError, NumericalFailure
 
 if TYPE_CHECKING:
     from ..progress import Progress
+    from .groups import Drawing
     from .request import Request
 
 
@@ -44,7 +45,7 @@ def fly_once(request: Request, revolutions: float | None, integrator: str, out: 
     from ..trim import trim as trim_solve
 
     start = trim_solve(request.aircraft, request.condition, inflow=trim_model(request.inflow), progress=progress)
-    flight = keeping(solve, lambda partial: save_flight(partial, out, progress))(
+    flight = keeping(solve, lambda partial: save_flight(partial, out, progress, request.drawing))(
         start,
         request.maneuver,
         inflow=request.inflow,
@@ -52,20 +53,23 @@ def fly_once(request: Request, revolutions: float | None, integrator: str, out: 
         integrator=integrator,
         progress=progress,
     )
-    save_flight(flight, out, progress)
+    save_flight(flight, out, progress, request.drawing)
     if not flight.finished:
         raise NumericalFailure(flight.failure or "the flight did not finish", partial=flight)
     progress(_pace(flight.data))
     return flight
 
 
-def save_flight(flight: Any, out: Path, progress: Progress) -> None:
+def save_flight(flight: Any, out: Path, progress: Progress, drawing: Drawing) -> None:
     """Write run.nc, then figures and report: the numbers are safe before anything is drawn."""
     folder = folder_made(out)
     flight.save(folder / "run.nc")
+    if not drawing.figures:
+        progress(f"wrote {folder / 'run.nc'}")
+        return
     from .. import report as reports
 
-    reports.write(flight.data, folder)
+    reports.write(flight.data, folder, progress=progress, figure_format=drawing.figure_format)
     progress(f"wrote {folder / 'run.nc'}, figures and {folder / 'report.html'}")
 
 

@@ -9,21 +9,23 @@ from typing import Annotated
 import typer
 
 from ..errors import InputError
-from .groups import Out
+from .groups import Drawing, FigureFormat, Out
 from .outcome import folder_made
-from .request import writable
+from .request import check_drawing, writable
 
 
 def report(
     run: Annotated[Path, typer.Argument(metavar="RUN.nc", help="result of a finished run")],
+    figure_format: FigureFormat = "png",
     out: Out = None,
 ) -> None:
     """Rebuild figures and report of a finished run, beside it or in --out."""
     if not run.is_file():
         raise InputError.of("RUN.nc", str(run), "no such file; allowed: the run.nc of a finished run")
+    check_drawing(Drawing(figure_format=figure_format))
     folder = folder_made(writable(out or run.parent))
     from .. import report as reports
     from .. import results
 
-    reports.write(results.load(run), folder)
+    reports.write(results.load(run), folder, figure_format=figure_format)
     print(f"wrote {folder / 'report.html'}")

@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError
 from ..text import slug
+from ..units import STANDARD_GRAVITY, shown
+from .groups import Drawing
 from .wake import typed_options
 
 if TYPE_CHECKING:
@@ -28,7 +30,29 @@ class Request:
     condition: FlightCondition
     inflow: InflowModel
     out: Path
+    drawing: Drawing
     maneuver: Maneuver | None = None
+    typed: tuple[str, ...] = ()
+
+    def told(self) -> str:
+        """The condition that is flown, what was given before what the aircraft's file gives, in the units of pilots."""
+        from ..condition import described
+
+        condition: dict[str, Any] = self.condition.as_attributes()
+        values = {
+            "speed": shown(condition.pop("speed"), "kt"),
+            "flight_path": shown(condition.pop("flight_path"), "deg"),
+            "altitude": shown(condition.pop("altitude"), "ft"),
+            "weight": shown(condition.pop("gross_mass") * STANDARD_GRAVITY, "lbf"),
+        }
+        parts = {
+            source: ", ".join(
+                f"{name.replace('_', ' ')} {value}" for name, value in values.items() if (name in self.typed) == given
+            )
+            for source, given in (("", True), ("of its file: ", False))
+        }
+        rest = described({name: value for name, value in condition.items() if value not in (0.0, "free")})
+        return f"{self.aircraft.name}: {'; '.join(s + text for s, text in (*parts.items(), ('', rest)) if text)}"
 
 
 def request(
@@ -40,6 +64,7 @@ def request(
     maneuver: str | None = None,
     blades: str | None = None,
     lenient: bool = False,
+    drawing: Drawing | None = None,
 ) -> Request:
     """Everything that was typed, read and checked; nothing is started.
 
@@ -50,11 +75,12 @@ def request(
     from ..maneuvers import load_maneuver
     from ..model import flight_regime
 
+    drawing = check_drawing(drawing or Drawing())
     set_threads(run.threads)
     flown = load_maneuver(maneuver) if maneuver is not None else None
     model = inflow_from(inflow, wake, lenient=lenient)
     if blades not in (None, "rigid", "flexible"):
-        raise InputError.of("--blades", blades, "allowed: rigid, flexible")
+        raise InputError.choice("--blades", blades, ("rigid", "flexible"))
     loaded = load_aircraft(vehicle.aircraft, vehicle.loading)
     if blades == "rigid":
         loaded = loaded.with_rigid_blades()
@@ -66,8 +92,15 @@ def request(
     if flown is not None:
         flown = flown.for_aircraft(loaded.stick_travel_in, float(loaded.rotor.omega))
         flown.check_span(loaded.stick_travel_in)
-    folder = writable(run.out if run.out is not None else Path("runs") / slug(flown.name if flown is not None else ""))
-    return Request(loaded, complete, model, folder, flown)
+    folder = writable(run.out if run.out is not None else Path("runs") / slug(flown.name if flown is not None else "run"))
+    return Request(loaded, complete, model, folder, drawing, flown, tuple(given.given()))
+
+
+def check_drawing(drawing: Drawing) -> Drawing:
+    """Refuse a format of figures that there is not."""
+    if drawing.figure_format not in ("png", "svg", "pdf"):
+        raise InputError.choice("--figure-format", drawing.figure_format, ("png", "svg", "pdf"))
+    return drawing
 
 
 def inflow_from(name: str, wake: Wake, on_stand: bool = False, lenient: bool = False) -> Any:
@@ -91,7 +124,7 @@ def check_flight(revolutions: float | None, integrator: str) -> None:
     if revolutions is not None and not 0.0 < revolutions <= 10000.0:
         raise InputError.of("--revolutions", revolutions, "must lie above 0 and at most 10000")
     if integrator not in ("ida", "fixed"):
-        raise InputError.of("--integrator", integrator, "allowed: ida, fixed")
+        raise InputError.choice("--integrator", integrator, ("ida", "fixed"))
 
 
 def set_threads(threads: int | None) -> None:

@@ -36,6 +36,7 @@ def trim(
     """Trim the aircraft, print a table, write trim.nc."""
     run = replace(run, out=run.out or Path("runs/trim"))
     asked = request(vehicle, given, inflow, wake, run, blades=blades)
+    print(asked.told(), flush=True)
     from ..progress import Progress
     from ..trim import trim as solve
 

@@ -10,9 +10,9 @@ from typing import Annotated, Any
 import typer
 
 from ..errors import InputError
-from .groups import AircraftName, Group, Run, Wake
+from .groups import AircraftName, Drawing, Group, Run, Wake, offered
 from .outcome import folder_made, keeping
-from .request import inflow_from, set_threads, writable
+from .request import check_drawing, inflow_from, set_threads, writable
 
 
 @dataclass(frozen=True)
@@ -80,7 +80,12 @@ def tunnel(
     *,
     setting: Setting,
     inflow: Annotated[
-        str, typer.Option("--inflow", help="time-marching, relaxation, dynamic, annular (hover, axial climb)")
+        str,
+        typer.Option(
+            "--inflow",
+            help="time-marching, relaxation, dynamic, annular (hover, axial climb)",
+            autocompletion=offered("time-marching", "relaxation", "dynamic", "annular"),
+        ),
     ] = "time-marching",
     stand: Stand,
     then: Annotated[
@@ -88,12 +93,14 @@ def tunnel(
     ] = None,
     duration: Annotated[str | None, typer.Option("--duration", help='how long to follow that, "2 s"')] = None,
     wake: Wake,
+    drawing: Drawing,
     run: Run,
 ) -> None:
     """Put an isolated rotor on a stand, print a table, write tunnel.nc and figures."""
+    check_drawing(drawing)
     set_threads(run.threads)
     folder = writable(run.out or Path("runs/tunnel"))
-    from ..plotting import tunnel as drawing
+    from ..plotting import tunnel as figures
     from ..progress import Progress
     from ..results import save
     from ..tunnel import tunnel as solve
@@ -108,12 +115,16 @@ def tunnel(
         result = solve(rotor or aircraft, inflow=model, progress=progress, **arguments)
         print(result.table())
         result.save(folder_made(folder) / "tunnel.nc")
-        written = [folder / "tunnel.nc", *drawing.write(result.data, folder)]
+        written = [folder / "tunnel.nc"]
+        if drawing.figures:
+            written += figures.write(result.data, folder, drawing.figure_format)
         if duration is not None:
             followed = keeping(result.transient, lambda data: save(data, folder / "transient.nc"))
             data = followed(moved, duration, progress)
-            written += [save(data, folder / "transient.nc"), drawing.write_transient(data, folder)]
-    print(f"wrote {folder / 'tunnel.nc'}, {', '.join(each.name for each in written[1:])}")
+            written.append(save(data, folder / "transient.nc"))
+            if drawing.figures:
+                written.append(figures.write_transient(data, folder, drawing.figure_format))
+    print(f"wrote {', '.join([str(written[0]), *(each.name for each in written[1:])])}")
 
 
 def _harmonic(text: str) -> dict[str, Any]:

@@ -1,2 +1,6 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Results for other programs."""
+"""Results for other programs: ParaView, MATLAB, spreadsheets, older NetCDF readers, acoustics."""
+
+from .formats import FORMATS, export
+
+__all__ = ["FORMATS", "export"]

@@ -134,17 +134,15 @@ def transient(data: xr.Dataset) -> Figure:
     return figure
 
 
-def write_transient(data: xr.Dataset, folder: Path) -> Path:
+def write_transient(data: xr.Dataset, folder: Path, figure_format: str = "png") -> Path:
     """Write the figure of a transient beside its result."""
-    return style.save(transient(data), folder / "transient.png")
+    return style.save(transient(data), folder / f"transient.{figure_format}")
 
 
-def write(data: xr.Dataset, folder: Path) -> list[Path]:
+def write(data: xr.Dataset, folder: Path, figure_format: str = "png") -> list[Path]:
     """Write the figures that the data allow beside the result."""
-    written = [style.save(maps(data), folder / "maps.png"), style.save(sections(data), folder / "sections.png")]
-    if "wake" in data:
-        written.append(style.save(wake(data), folder / "wake.png"))
-    return written
+    figures = {"maps": maps, "sections": sections, **({"wake": wake} if "wake" in data else {})}
+    return [style.save(draw(data), folder / f"{name}.{figure_format}") for name, draw in figures.items()]
 
 
 def _title(data: xr.Dataset) -> str:

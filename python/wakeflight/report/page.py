@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from ..plotting import COMPARISONS, FIGURES, Plot
 from ..plotting.style import save
+from ..progress import Progress, Reported, Silent, heard
 from ..results import by_name
 from .summary import Row, configuration, counters, summary, trim_table, warnings, watched
 
@@ -31,11 +32,14 @@ def write(
     runs: xr.Dataset | Mapping[str, xr.Dataset],
     out_dir: str | Path,
     trim: xr.Dataset | None = None,
+    progress: Reported = None,
+    figure_format: str = "png",
 ) -> Path:
     """Write the figures (PNG) and `report.html` of one run, or of several by name, into `out_dir`.
 
     With several runs, histories are drawn over each other and maps side by side. `trim` adds the table of the
-    trim's sticks, attitude and residuals. Returns the path of the page.
+    trim's sticks, attitude and residuals. figure_format: `svg` and `pdf` are written beside the PNG files. Returns the path of
+    the page.
     """
     from jinja2 import Environment, PackageLoader, StrictUndefined
 
@@ -58,7 +62,9 @@ def write(
         failures={name: run.attrs["failure"] for name, run in named.items() if not run.attrs.get("finished", 1)},
         warnings=_common(warnings, named),
         tables=_tables(named, trim),
-        figures=_figures(COMPARISONS if several else FIGURES, named if several else first, out_dir),
+        figures=_figures(
+            COMPARISONS if several else FIGURES, named if several else first, out_dir, heard(progress), figure_format
+        ),
         configurations={name: configuration(run) for name, run in named.items()},
         version=first.attrs.get("program_version", ""),
     )
@@ -102,12 +108,18 @@ def _common(texts_of: Callable[..., list[str]], named: Mapping[str, xr.Dataset])
     return [text if len(of) == len(named) else f"{text} ({', '.join(of)})" for text, of in found.items()]
 
 
-def _figures(plots: tuple[Plot, ...], data: object, out_dir: Path) -> list[Drawn]:
+def _figures(
+    plots: tuple[Plot, ...], data: object, out_dir: Path, progress: Progress | Silent, figure_format: str
+) -> list[Drawn]:
     """Draw what can be drawn from the data, write each as PNG and keep it for the page."""
     drawn = []
+    plots = tuple(plot for plot in plots if plot.drawable(data))
+    progress.phase("figures", len(plots))
     for plot in plots:
-        if not plot.drawable(data):
-            continue
-        path = save(plot.figure(data), out_dir / f"{plot.name}.png")
+        figure = plot.figure(data)
+        path = save(figure, out_dir / f"{plot.name}.png")
+        if figure_format != "png":
+            save(figure, out_dir / f"{plot.name}.{figure_format}")
+        progress.advance(1, plot.name)
         drawn.append(Drawn(plot.name, plot.caption, base64.b64encode(path.read_bytes()).decode("ascii")))
     return drawn

@@ -292,6 +292,7 @@ ATTRIBUTES: tuple[Attribute, ...] = (
     Attribute("seconds_total", "wall clock: total [s]"),
     Attribute("blades", "flexible or rigid"),
     Attribute("blade_modes", "what each blade mode mostly is, in ascending order of frequency"),
+    Attribute("geometry", "place and shape of the rotor, as JSON"),
     Attribute("integrator", "integrator"),
     Attribute("integration_method", "what the integrator does"),
     Attribute("residual_evaluations", "residual evaluations"),

@@ -12,7 +12,7 @@ from ..condition import FlightCondition, condition_for, target
 from ..errors import NumericalFailure
 from ..inflow import DynamicInflow, InflowModel, inflow_model, trim_model
 from ..model import Model
-from ..progress import Progress, Silent
+from ..progress import Reported, heard, reporting
 from ..units import number, whole
 from .aircraft import AircraftOnWake, on_marching, on_relaxation
 from .equations import INCH, dynamic_map, without_inflow
@@ -31,12 +31,13 @@ CONTROL_TOLERANCES = (1e-12, 1.0)
 __all__ = ["INCH", "Trim", "physical", "trim"]
 
 
+@reporting
 @checked
 def trim(
     aircraft: Aircraft,
     condition: FlightCondition | None = None,
     inflow: str | InflowModel = "relaxation",
-    progress: Progress | Silent | None = None,
+    progress: Reported = None,
     n_harmonics: int = 8,
     control_tolerance: float = CONTROL_TOLERANCE,
     *,
@@ -56,7 +57,7 @@ def trim(
     Raises `InputError` for bad input and `NumericalFailure`, saying what limits, where no trim is found; also where what was
     found is beyond physics, with the trim as `partial`. What is beyond a limit of aircraft or model stands in `.warnings`.
     """
-    progress = progress or Silent()
+    progress = heard(progress)
     started = time.perf_counter()
     n_harmonics = whole("n_harmonics", n_harmonics, 0, MOST_HARMONICS)
     control_tolerance = number("control_tolerance", control_tolerance, *CONTROL_TOLERANCES)

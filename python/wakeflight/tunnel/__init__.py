@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from ..arguments import checked
 from ..errors import InputError, NumericalFailure
 from ..inflow import DynamicInflow
-from ..progress import Progress, Silent
+from ..progress import Reported, heard, reporting
 from ..trim.equations import trim_problem
 from ..units import whole
 from .annular import check_axial, on_annuli
@@ -39,6 +39,7 @@ BLADE_MODELS = ("lifting-line", "second-order", "weissinger")
 __all__ = ["Tunnel", "check", "stand_inflow", "tunnel"]
 
 
+@reporting
 @checked
 def tunnel(
     aircraft: str | Path | Aircraft | Rotor = "uh60a",
@@ -72,7 +73,7 @@ def tunnel(
     n_harmonics: int = 8,
     revolutions: int | None = None,
     averaged: int | None = None,
-    progress: Progress | Silent | None = None,
+    progress: Reported = None,
 ) -> Tunnel:
     """Isolated rotor on a stand: thrust, torque, flapping, section loads, inflow, tip-vortex path.
 
@@ -126,7 +127,7 @@ def tunnel(
     moves. What is beyond a limit of the model stands in `.warnings`, and in `.notes`.
     """
     started = time.perf_counter()
-    progress = progress or Silent()
+    progress = heard(progress)
     given = {
         name: value for name, value in locals().items() if name not in ("progress", "started", "aircraft", "inflow")
     }
@@ -192,7 +193,7 @@ def _prepared(aircraft: Any, inflow: Any, given: dict[str, Any]) -> tuple[Rotor,
     model.step(rotor)
     blade_model = given["blade_model"]
     if blade_model not in BLADE_MODELS:
-        raise InputError.of("blade_model", blade_model, f"allowed: {', '.join(BLADE_MODELS)}")
+        raise InputError.choice("blade_model", blade_model, BLADE_MODELS)
     if not isinstance(given["prandtl_glauert"], bool):
         raise InputError.of("prandtl_glauert", given["prandtl_glauert"], "must be True or False")
     if model.name == "annular":

@@ -13,7 +13,7 @@ from ...condition import FlightCondition, condition_for
 from ...errors import InputError, NumericalFailure
 from ...inflow import InflowModel, inflow_model
 from ...maneuvers import SHIPPED, Maneuver, load_maneuver
-from ...progress import Progress, Silent
+from ...progress import Reported, heard, reporting
 from ...tunnel import stand_inflow
 from ..case import Case
 from .parameters import CONTROL_TOLERANCE, PARAMETERS, Parameter, applied, check_run, parameter, settings
@@ -23,6 +23,7 @@ from .study import Study
 __all__ = ["PARAMETERS", "Study", "converge"]
 
 
+@reporting
 @checked
 def converge(
     aircraft: Aircraft | Rotor,
@@ -35,7 +36,7 @@ def converge(
     revolutions: float | None = None,
     integrator: str = "ida",
     stand: Mapping[str, Any] | None = None,
-    progress: Progress | Silent | None = None,
+    progress: Reported = None,
 ) -> Study:
     """Repeat a run at several settings of one discretisation: error estimate and cost of each.
 
@@ -44,7 +45,7 @@ def converge(
     The rest as for `trim` and `fly`; trims on a free wake are iterated more tightly than by default. A setting that fails is
     left out and named in `failures`; NumericalFailure where fewer than two are left.
     """
-    progress = progress or Silent()
+    progress = heard(progress)
     chosen = parameter(vary)
     given = settings(chosen, values)
     repeated, base = _run(chosen, run, aircraft, condition, inflow, revolutions, integrator, stand)

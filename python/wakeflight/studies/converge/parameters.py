@@ -90,7 +90,7 @@ def parameter(name: str) -> Parameter:
     for each in PARAMETERS:
         if name in (each.name, each.option):
             return each
-    raise InputError.of("vary", name, f"allowed: {', '.join(each.name for each in PARAMETERS)}")
+    raise InputError.choice("vary", name, [each.name for each in PARAMETERS])
 
 
 @dataclass(frozen=True)
