@@ -33,7 +33,9 @@ RUST_ORDER = (
 # each module may import itself and the rows before its own; a new module needs its place here
 PYTHON_ORDER = (
     {"_core"},
-    {"errors", "results", "regime", "views"},
+    {"errors"},
+    {"atomic"},
+    {"results", "regime", "views"},
     {"units", "references", "vortex", "progress", "limits", "text"},
     {"options"},
     {"presets"},

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..atomic import write_text
+
 if TYPE_CHECKING:
     import xarray as xr
 
@@ -22,7 +24,6 @@ def write(run: xr.Dataset, out_dir: str | Path, name: str = "wake") -> Path:
     if "wake" not in run:
         raise ValueError("the run has no wake to export")
     out_dir = Path(out_dir)
-    out_dir.mkdir(parents=True, exist_ok=True)
     seconds = run["snapshot_revolution"].values * 2 * np.pi / float(run.attrs["omega"])
     entries = []
     for k, time in enumerate(seconds):
@@ -41,11 +42,10 @@ def write(run: xr.Dataset, out_dir: str | Path, name: str = "wake") -> Path:
                 data[label] = snapshot[variable].values
         flat = {label: values.reshape(-1, nodes.shape[-2]) for label, values in data.items()}
         file = f"{name}-{k:03d}.vtp"
-        (out_dir / file).write_text(poly_data(nodes.reshape(-1, *nodes.shape[-2:]), flat), encoding="ascii")
+        write_text(out_dir / file, poly_data(nodes.reshape(-1, *nodes.shape[-2:]), flat), encoding="ascii")
         entries.append(f'    <DataSet timestep="{time:.9g}" file="{file}"/>')
-    series = out_dir / f"{name}.pvd"
-    series.write_text(_document("Collection", "  <Collection>\n" + "\n".join(entries) + "\n  </Collection>"))
-    return series
+    series = _document("Collection", "  <Collection>\n" + "\n".join(entries) + "\n  </Collection>")
+    return write_text(out_dir / f"{name}.pvd", series)
 
 
 def poly_data(nodes: np.ndarray, point_data: dict[str, np.ndarray]) -> str:
