@@ -33,7 +33,7 @@ ROOMS = {
     "aircraft": ("aircraft", "thinning"),
     "inputs": ("condition", "inflow", "maneuvers", "options", "presets", "regime", "rotor_speed", "units", "text"),
     "results": ("results",),
-    "basics": ("errors", "arguments", "references", "progress", "views"),
+    "basics": ("errors", "arguments", "atomic", "references", "progress", "views"),
 }
 """Rooms of Python and the modules in them; a module that is in none is a room of its own."""
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""The two ways a run can end early: input that cannot be used, and numbers that cannot go on."""
+"""The ways a run can end early: input that cannot be used, numbers that cannot go on, a disk that does not take it, a signal."""
 
 from __future__ import annotations
 
@@ -59,6 +59,29 @@ class NumericalFailure(WakeflightError, RuntimeError):
 
     def __init__(self, message: str, partial: Any = None) -> None:
         super().__init__(one_line(message))
+        self.partial = partial
+
+
+class StorageFailure(WakeflightError):
+    """Something that could not be written: which file and why; what had been written before is whole."""
+
+    exit_code = 3
+
+    @classmethod
+    def of(cls, path: object, reason: OSError) -> StorageFailure:
+        """From what the system said of `path`."""
+        return cls(one_line(f"{path}: cannot be written: {reason.strerror or reason}"))
+
+
+class Interrupted(WakeflightError):
+    """A signal ended the work: what was flown is kept; `exit_code` is that of the shell, 128 and the signal's number.
+
+    partial: whatever the verb had computed (a flight), None if nothing.
+    """
+
+    def __init__(self, message: str, signal: int, partial: Any = None) -> None:
+        super().__init__(one_line(message))
+        self.exit_code = 128 + signal
         self.partial = partial
 
 

@@ -34,6 +34,7 @@ RUST_ORDER = (
 PYTHON_ORDER = (
     {"_core"},
     {"errors"},
+    {"atomic"},
     {"arguments", "results", "regime", "views"},
     {"units", "references", "vortex", "progress", "limits", "text"},
     {"options"},

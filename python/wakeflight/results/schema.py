@@ -7,6 +7,9 @@ from dataclasses import dataclass
 
 from .variables import MEANINGS, UNITS
 
+SCHEMA = 2
+"""Version of what a result holds, its attribute `schema`; files without one are of version 1, which had no `input`."""
+
 
 @dataclass(frozen=True)
 class Variable:
@@ -277,6 +280,8 @@ ATTRIBUTES: tuple[Attribute, ...] = (
     Attribute("maneuver", "manoeuvre"),
     Attribute("maneuver_adapted", "adapted to this aircraft"),
     Attribute("condition", "flight condition"),
+    Attribute("schema", "version of what the file holds"),
+    Attribute("input", "everything the run was made of, as JSON: `wakeflight rerun` flies it again"),
     Attribute("program_version", "program version"),
     Attribute("instruction_set", "instruction set of the vortex sums"),
     Attribute("finished", "1 if the run came to its end, 0 if it failed"),
