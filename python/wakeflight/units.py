@@ -22,6 +22,8 @@ _POUND = 0.45359237
 _FOOT = 0.3048
 _DIMENSIONS = {
     "1": (1.0, (0, 0, 0, 0)),
+    "%": (0.01, (0, 0, 0, 0)),
+    "Hz": (1.0, (0, 0, -1, 0)),
     "m": (1.0, (0, 1, 0, 0)),
     "mm": (1e-3, (0, 1, 0, 0)),
     "km": (1e3, (0, 1, 0, 0)),
@@ -50,7 +52,10 @@ _DIMENSIONS = {
 }
 
 _TEXT = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*$")
-_UNIT = re.compile(r"([*/ ]?)\s*([A-Za-z]+|1)(?:\^|\*\*)?(-?\d+)?\s*")
+_UNIT = re.compile(r"([*/ ]?)\s*([A-Za-z]+|%|1)(?:\^|\*\*)?(-?\d+)?\s*")
+# a unit per quotient, "in/(rad/s)", or per product, "in/(ft s)"
+_PER_QUOTIENT = re.compile(r"/\s*\(([^()/]+)/([^()/]+)\)")
+_PER_PRODUCT = re.compile(r"/\s*\(([^()/ *]+)[ *]([^()/ *]+)\)")
 
 EXAMPLES = {
     "m/s": "'80 kt'",
@@ -66,7 +71,7 @@ EXAMPLES = {
 def factor(unit: str) -> tuple[float, tuple[int, ...]] | None:
     """SI factor of a unit such as `slug ft2`, and its powers of kg, m, s, rad; None if not known here."""
     total, powers, position = 1.0, [0, 0, 0, 0], 0
-    text = unit.strip() or "1"
+    text = _PER_PRODUCT.sub(r"/\1/\2", _PER_QUOTIENT.sub(r"/\1*\2", unit.strip() or "1"))
     while position < len(text):
         match = _UNIT.match(text, position)
         if match is None or match.group(2) not in _DIMENSIONS:

@@ -34,8 +34,8 @@ RUST_ORDER = (
 PYTHON_ORDER = (
     {"_core"},
     {"errors", "results", "regime", "views"},
-    {"units", "references", "vortex", "progress", "limits", "text"},
-    {"options"},
+    {"units", "references", "vortex", "progress", "limits", "text", "sticks"},
+    {"options", "control"},
     {"presets"},
     {"condition", "inflow", "maneuvers", "wing", "monitors", "snapshot", "rotor_speed"},
     {"aircraft", "thinning"},

@@ -7,7 +7,7 @@ from typing import Any
 
 from ..errors import NumericalFailure
 from . import outcome
-from .groups import Integrator, ManeuverName, Revolutions, Run, Straight, Vehicle, Wake
+from .groups import Control, Integrator, ManeuverName, Revolutions, Run, Straight, Vehicle, Wake
 from .request import check_flight, request
 
 
@@ -19,6 +19,7 @@ def compare(
     revolutions: Revolutions = None,
     wake: Wake,
     integrator: Integrator = "ida",
+    control: Control = None,
     run: Run,
 ) -> None:
     """Fly the same manoeuvre with all three inflow models and state the cost of each."""
@@ -26,7 +27,7 @@ def compare(
     from ..progress import Progress
 
     check_flight(revolutions, integrator)
-    requests = [request(vehicle, given, name, wake, run, maneuver, lenient=True) for name in MODELS]
+    requests = [request(vehicle, given, name, wake, run, maneuver, lenient=True, control=control) for name in MODELS]
     runs: dict[str, Any] = {}
     failures, lines = [], [f"{'inflow':<15}{'trim s':>9}{'flight s':>10}{'total s':>9}"]
     with Progress() as progress:

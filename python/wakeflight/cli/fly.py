@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from . import outcome
-from .groups import Blades, Condition, InflowName, Integrator, ManeuverName, Revolutions, Run, Vehicle, Wake
+from .groups import Blades, Condition, Control, InflowName, Integrator, ManeuverName, Revolutions, Run, Vehicle, Wake
 from .request import check_flight, request
 
 
@@ -18,11 +18,12 @@ def fly(
     wake: Wake,
     integrator: Integrator = "ida",
     blades: Blades = None,
+    control: Control = None,
     run: Run,
 ) -> None:
     """Trim, fly a manoeuvre, write run.nc, figures and report.html."""
     check_flight(revolutions, integrator)
-    asked = request(vehicle, given, inflow, wake, run, maneuver, blades)
+    asked = request(vehicle, given, inflow, wake, run, maneuver, blades, control=control)
     from ..progress import Progress
 
     with Progress() as progress:

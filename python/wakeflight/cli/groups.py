@@ -15,12 +15,17 @@ import typer
 from ..options import choices, described
 
 ManeuverName = Annotated[
-    str, typer.Argument(metavar="MANEUVER", help="arrested-descent, roll-reversal, or a TOML file")
+    str,
+    typer.Argument(metavar="MANEUVER", help="arrested-descent, roll-reversal, roll-reversal-augmented, or a TOML file"),
 ]
 AircraftName = Annotated[str, typer.Option("--aircraft", metavar="NAME|FILE", help="uh60a, bo105, or an aircraft file")]
 InflowName = Annotated[str, typer.Option("--inflow", help="time-marching, relaxation, dynamic")]
 Revolutions = Annotated[float | None, typer.Option("--revolutions", help="revolutions to fly; the manoeuvre's own")]
 Integrator = Annotated[str, typer.Option("--integrator", help="ida, fixed")]
+Control = Annotated[
+    str | None,
+    typer.Option("--control", metavar="FILE", help="controllers and servos, a TOML file; none; the manoeuvre's own"),
+]
 Blades = Annotated[str | None, typer.Option("--blades", help="rigid, flexible; the aircraft's own")]
 Out = Annotated[Path | None, typer.Option("--out", help="folder for results")]
 

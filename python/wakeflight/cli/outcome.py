@@ -51,6 +51,7 @@ def fly_once(request: Request, revolutions: float | None, integrator: str, out: 
         revolutions=revolutions,
         integrator=integrator,
         progress=progress,
+        control=request.control,
     )
     save_flight(flight, out, progress)
     if not flight.finished:

@@ -14,6 +14,7 @@ from .wake import typed_options
 if TYPE_CHECKING:
     from ..aircraft import Aircraft
     from ..condition import FlightCondition
+    from ..control import Augmentation
     from ..inflow import InflowModel
     from ..maneuvers import Maneuver
     from .groups import Run, Straight, Vehicle, Wake
@@ -28,6 +29,7 @@ class Request:
     inflow: InflowModel
     out: Path
     maneuver: Maneuver | None = None
+    control: Augmentation | None = None
 
 
 def request(
@@ -39,6 +41,7 @@ def request(
     maneuver: str | None = None,
     blades: str | None = None,
     lenient: bool = False,
+    control: str | None = None,
 ) -> Request:
     """Everything that was typed, read and checked; nothing is started.
 
@@ -46,11 +49,15 @@ def request(
     """
     from ..aircraft import load_aircraft
     from ..condition import condition_for
+    from ..control import Augmentation, load_control
     from ..maneuvers import load_maneuver
     from ..model import flight_regime
 
     set_threads(run.threads)
     flown = load_maneuver(maneuver) if maneuver is not None else None
+    made = None
+    if control is not None:
+        made = Augmentation() if control == "none" else load_control(control)
     model = inflow_from(inflow, wake, lenient=lenient)
     if blades not in (None, "rigid", "flexible"):
         raise InputError.of("--blades", blades, "allowed: rigid, flexible")
@@ -66,7 +73,7 @@ def request(
         flown = flown.for_aircraft(loaded.stick_travel_in, float(loaded.rotor.omega))
         flown.check_span(loaded.stick_travel_in)
     folder = writable(run.out if run.out is not None else Path("runs") / (flown.name if flown is not None else "run"))
-    return Request(loaded, complete, model, folder, flown)
+    return Request(loaded, complete, model, folder, flown, made)
 
 
 def inflow_from(name: str, wake: Wake, on_stand: bool = False, lenient: bool = False) -> Any:
