@@ -22,6 +22,8 @@ _POUND = 0.45359237
 _FOOT = 0.3048
 _DIMENSIONS = {
     "1": (1.0, (0, 0, 0, 0)),
+    "%": (0.01, (0, 0, 0, 0)),
+    "Hz": (1.0, (0, 0, -1, 0)),
     "m": (1.0, (0, 1, 0, 0)),
     "mm": (1e-3, (0, 1, 0, 0)),
     "km": (1e3, (0, 1, 0, 0)),
@@ -63,13 +65,16 @@ _TEXT = re.compile(
 )
 _APART = re.compile(r"(?<=[0-9])[ ,'\u2019_](?=[0-9])")
 _TYPED = str.maketrans({"\u2212": "-", "\u2013": "-", "\u00a0": " ", "\u202f": " ", "\u2009": " "})
-_UNIT = re.compile(r"([*/ ]?)\s*([A-Za-z°]+|1)(?:\^|\*\*)?(-?[0-9]+)?\s*")
+_UNIT = re.compile(r"([*/ ]?)\s*([A-Za-z°]+|%|1)(?:\^|\*\*)?(-?[0-9]+)?\s*")
 
 # what is handed to pint: names, `*`, `/`, blanks, one level of brackets, and powers that are one small number each
 _BETWEEN = r"(?:\s*+[*/·]\s*+|\s++)"
 _FACTOR = rf"(?:[^\W\d]\w*+|[%°µΩ]\w*+|1)(?:\s*+(?:\^|\*\*)\s*+-?[0-{HIGHEST_POWER}](?![0-9.]))?"
 _TERM = rf"(?:{_FACTOR}|\(\s*+{_FACTOR}(?:{_BETWEEN}{_FACTOR})*+\s*+\))"
 _FOREIGN = re.compile(rf"{_TERM}(?:{_BETWEEN}{_TERM})*+")
+# a unit per quotient, "in/(rad/s)", or per product, "in/(ft s)"
+_PER_QUOTIENT = re.compile(r"/\s*\(([^()/]+)/([^()/]+)\)")
+_PER_PRODUCT = re.compile(r"/\s*\(([^()/ *]+)[ *]([^()/ *]+)\)")
 
 EXAMPLES = {
     "m/s": "'80 kt'",
@@ -88,6 +93,7 @@ def factor(unit: str) -> tuple[float, tuple[int, ...]] | None:
     text = unit.strip() or "1"
     if len(text) > LONGEST:
         return None
+    text = _PER_PRODUCT.sub(r"/\1/\2", _PER_QUOTIENT.sub(r"/\1*\2", text))
     while position < len(text):
         match = _UNIT.match(text, position)
         if match is None or match.group(2) not in _DIMENSIONS:

@@ -52,6 +52,7 @@ def fly_once(request: Request, revolutions: float | None, integrator: str, out: 
         revolutions=revolutions,
         integrator=integrator,
         progress=progress,
+        control=request.control,
     )
     save_flight(flight, out, progress, request.drawing)
     if not flight.finished:

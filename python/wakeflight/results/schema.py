@@ -42,6 +42,9 @@ BLADE = ("time", "blade")
 STATION = ("time", "blade", "station")
 DISK = ("azimuth", "station")
 
+CONTROL = ("lateral", "longitudinal", "collective", "pedal")
+"""Sticks that controllers and servos move."""
+
 WATCHED = (
     "inflow_max",
     "inflow_bound",
@@ -116,6 +119,7 @@ RUN: tuple[Variable, ...] = (
     *_table(("snapshot", "blade", "trailer", "age"), "wake_sheet_circulation", optional=True),
     *_table(
         TIME,
+        *(f"{kind}_{stick}" for kind in ("sas", "actuator") for stick in CONTROL),
         "beta_0",
         "power",
         "ct",
@@ -308,5 +312,8 @@ ATTRIBUTES: tuple[Attribute, ...] = (
     Attribute("segment_evaluations_trim", "wake segment evaluations: trim"),
     Attribute("segment_evaluations_convergence", "wake segment evaluations: convergence phase"),
     Attribute("relaxation_iterations_trim", "relaxation iterations: trim"),
+    Attribute("sas_saturated", "seconds that an authority held controllers, by stick [s]"),
+    Attribute("actuator_rate_limited", "seconds that their rate held the servos, by blade pitch [s]"),
+    Attribute("actuator_at_stop", "seconds that servos were at a stop, by blade pitch [s]"),
     Attribute("warnings", "warnings, one a line"),
 )
