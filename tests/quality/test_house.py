@@ -34,8 +34,9 @@ RUST_ORDER = (
 PYTHON_ORDER = (
     {"_core"},
     {"errors"},
-    {"arguments", "results", "regime", "views"},
-    {"units", "references", "vortex", "progress", "limits", "text"},
+    {"arguments", "text"},
+    {"results", "regime", "views"},
+    {"units", "references", "vortex", "progress", "limits"},
     {"options"},
     {"presets"},
     {"condition", "inflow", "maneuvers", "wing", "monitors", "snapshot", "rotor_speed"},

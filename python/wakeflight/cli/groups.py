@@ -22,6 +22,9 @@ InflowName = Annotated[str, typer.Option("--inflow", help="time-marching, relaxa
 Revolutions = Annotated[float | None, typer.Option("--revolutions", help="revolutions to fly; the manoeuvre's own")]
 Integrator = Annotated[str, typer.Option("--integrator", help="ida, fixed")]
 Blades = Annotated[str | None, typer.Option("--blades", help="rigid, flexible; the aircraft's own")]
+AllowOutside = Annotated[
+    bool, typer.Option("--allow-outside", help="read tables elsewhere than beside the aircraft or rotor file, or below")
+]
 Out = Annotated[Path | None, typer.Option("--out", help="folder for results")]
 
 
@@ -41,6 +44,7 @@ class Vehicle(Group):
     aircraft: AircraftName = "uh60a"
     loading: Annotated[str | None, typer.Option("--loading", help="named mass and c.g. of the aircraft file")] = None
     condition: Annotated[str | None, typer.Option("--condition", help="named condition of the aircraft file")] = None
+    allow_outside: AllowOutside = False
 
 
 @dataclass(frozen=True)

@@ -7,8 +7,9 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ..arguments import checked
 from .attributes import flat_attributes
-from .errors import ResultsError
+from .reading import DIGEST, digest, of_kind, opened
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -20,6 +21,7 @@ def save(dataset: xr.Dataset, path: str | Path) -> Path:
     path.parent.mkdir(parents=True, exist_ok=True)
     flat = dataset.copy()
     flat.attrs = flat_attributes(dataset.attrs)
+    flat.attrs[DIGEST] = digest(flat)
     encoding = {
         name: {"zlib": True, "complevel": 4, "shuffle": True}
         for name, variable in flat.variables.items()
@@ -29,17 +31,13 @@ def save(dataset: xr.Dataset, path: str | Path) -> Path:
     return path
 
 
-def load(path: str | Path) -> xr.Dataset:
-    """Read a run or a trim back into memory; the file is closed."""
-    import xarray as xr
+@checked
+def load(path: str | Path, kind: str | None = None) -> xr.Dataset:
+    """Read a run or a trim back into memory; the file is closed. Nothing in it is executed.
 
-    path = Path(path)
-    if not path.is_file():
-        raise ResultsError(f"{path}: no such file")
-    try:
-        return xr.load_dataset(path, engine="h5netcdf")
-    except OSError as error:
-        raise ResultsError(f"{path}: not a NetCDF-4 file ({error})") from error
+    kind: what it must be, a key of `reading.KINDS`. Refused is what is damaged, changed or no such result.
+    """
+    return of_kind(opened(Path(path)), Path(path), kind)
 
 
 def by_name(runs: xr.Dataset | Mapping[str, xr.Dataset], single: str | None = None) -> dict[str, xr.Dataset]:
