@@ -100,15 +100,17 @@ def content_of(path: Path, largest: int = LARGEST_FILE) -> bytes:
     except (OSError, ValueError) as reason:
         told = reason.strerror if isinstance(reason, OSError) else "no file can have that name"
         raise ValueError(f"cannot be read: {(told or 'refused').lower()}") from reason
-    with os.fdopen(handle, "rb") as file:
+    try:
         what = os.fstat(handle)
         if not stat.S_ISREG(what.st_mode):
             raise ValueError(f"cannot be read: it is {_kind(what.st_mode)}, no file")
         # files of the system say a size of 0 and go on without end
-        try:
+        with open(handle, "rb", closefd=False) as file:
             content = file.read(largest + 1) if what.st_size <= largest else b""
-        except OSError as reason:
-            raise ValueError(f"cannot be read: {(reason.strerror or 'refused').lower()}") from reason
+    except OSError as reason:
+        raise ValueError(f"cannot be read: {(reason.strerror or 'refused').lower()}") from reason
+    finally:
+        os.close(handle)
     if what.st_size > largest or len(content) > largest:
         raise ValueError(f"cannot be read: it is larger than {largest >> 20} MiB")
     return content

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from ..arguments import checked
 from .attributes import flat_attributes
-from .reading import DIGEST, digest, of_kind, opened
+from .reading import DIGEST, digest, of_kind, opened, seal
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -28,6 +28,8 @@ def save(dataset: xr.Dataset, path: str | Path) -> Path:
         if variable.ndim and variable.dtype.kind in "fiu"
     }
     flat.to_netcdf(path, engine="h5netcdf", format="NETCDF4", encoding=encoding)
+    with path.open("r+b") as stream:
+        seal(stream)
     return path
 
 

@@ -1,17 +1,18 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """Results that come back from files: whole and unchanged, of the kind that is asked for, or refused in one line.
 
-A file is data: nothing in it is executed, nothing unpickled. HDF5 checks little of what it reads, so a result carries a digest of
-its own content; a file that was cut, changed or written by another program is told apart before its numbers are used.
+A file is data: nothing in it is executed, nothing unpickled. HDF5 checks little of what it reads and may read damage without
+end, so a file ends with a digest of its bytes, which HDF5 does not look at and which is met before HDF5 sees the file; and it
+carries one of its content, for files that another program has copied.
 """
 
 from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 
@@ -35,12 +36,44 @@ KINDS: dict[str, tuple[Variable, ...]] = {
 }
 """Kinds of results by their variables."""
 
+SEAL = b"WKFLSEAL"
+"""Mark before the digest that ends a file."""
+
 PACKED = 1100
 """Most bytes that one byte of a compressed file can stand for: deflate reaches 1032."""
 
 
+def seal(stream: BinaryIO) -> None:
+    """Put the digest of all its bytes at the end of a file that is written; the stream can be read."""
+    stream.seek(0)
+    stream.write(SEAL + _summed(iter(lambda: stream.read(1 << 20), b"")))
+
+
+def _check_seal(path: Path) -> None:
+    """Refuse a file whose bytes are not those it was written with; one without a seal is another program's or an older one."""
+    with path.open("rb") as stream:
+        left = max(path.stat().st_size - _SEALED, 0)
+        found = _summed(iter(lambda: stream.read(min(1 << 20, left - stream.tell())), b""))
+        end = stream.read(_SEALED)
+    if end.startswith(SEAL) and end != SEAL + found:
+        raise ResultsError(f"{_told(path)}: damaged or changed: its bytes are not those it was written with")
+
+
+def _summed(parts: Iterable[bytes]) -> bytes:
+    """Digest of bytes."""
+    summed = hashlib.blake2b(digest_size=16)
+    for part in parts:
+        summed.update(part)
+    return summed.digest()
+
+
+_SEALED = len(SEAL) + 16
+"""Bytes of a seal."""
+
+
 def opened(path: Path) -> xr.Dataset:
     """The dataset of a NetCDF-4 file, in memory, unchanged since it was written; the file is closed."""
+    import h5py
     import xarray as xr
 
     if not is_file(path):
@@ -48,7 +81,11 @@ def opened(path: Path) -> xr.Dataset:
     size = path.stat().st_size
     if size == 0:
         raise ResultsError(f"{_told(path)}: the file is empty: the program that wrote it was stopped")
+    _check_seal(path)
     try:
+        # no HDF5, or one without a head, is refused here: deeper down it would be told on the standard error as well
+        with h5py.File(path, "r") as head:
+            dict(head.attrs)
         with xr.open_dataset(path, engine="h5netcdf", decode_times=False) as file:
             unpacked = sum(each.dtype.itemsize * each.size for each in file.variables.values())
             if unpacked > PACKED * size + (1 << 20):
@@ -86,10 +123,7 @@ def of_kind(data: xr.Dataset, path: Path, wanted: str | None = None) -> xr.Datas
 
 def digest(data: xr.Dataset) -> str:
     """Digest of names, dimensions, numbers and attributes of a dataset, the same before and after a file."""
-    summed = hashlib.blake2b(digest_size=16)
-    for part in _content(data):
-        summed.update(part)
-    return summed.hexdigest()
+    return _summed(_content(data)).hex()
 
 
 def _content(data: xr.Dataset) -> Iterator[bytes]:
