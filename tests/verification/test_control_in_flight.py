@@ -282,3 +282,45 @@ def test_the_second_reading_of_the_roll_reversal_ends_level(baseline_dynamic):
     bank = np.degrees(flight.data["roll"].values)
     assert 65.0 < bank.max() < 80.0 and -60.0 < bank.min() < -38.0 and abs(bank[-1]) < 15.0
     assert flight.data.attrs["sas_saturated.lateral"] > 1.0
+
+
+def test_python_control_is_asked_for_in_one_line(monkeypatch):
+    import sys
+
+    monkeypatch.setitem(sys.modules, "control", None)
+    with pytest.raises(wf.InputError, match="needs the package python-control: pip install control"):
+        wf.from_control(object())
+
+
+def test_a_system_of_python_control_flies_as_the_block_does(baseline_dynamic):
+    control = pytest.importorskip("control")
+    lag, washout, gain = 0.05, 2.0, 3.0
+    block = wf.RateDamping(roll=f"{gain} in/(rad/s)", lag=f"{lag} s", washout=f"{washout} s", authority="0.1 in")
+    transfer = control.tf([-gain * washout, 0.0], np.polymul([lag, 1.0], [washout, 1.0]), inputs="p", outputs="lateral")
+    same_one = fly(baseline_dynamic, block).data
+    for system in (transfer, control.ss(transfer)):
+        data = fly(baseline_dynamic, wf.from_control(system, authority="0.1 in")).data
+        assert np.abs(data["p"] - same_one["p"]).max() < 1e-9
+        assert data.attrs["sas_saturated.lateral"] == same_one.attrs["sas_saturated.lateral"] > 0.0
+    # a gain by itself, discrete, at its own rate
+    discrete = control.ss([], [], [], [[-gain]], 0.0125)
+    named = wf.from_control(discrete, signals="p", outputs="lateral")
+    assert named.rate == "80.0 Hz"
+    own = fly(baseline_dynamic, wf.RateDamping(roll=f"{gain} in/(rad/s)", rate="80 Hz")).data
+    assert np.abs(fly(baseline_dynamic, named).data["p"] - own["p"]).max() < 1e-12
+    sim = wf.Simulation(baseline_dynamic, control=wf.from_control(transfer))
+    sim.step({"lateral": 0.5})
+    kept = sim.snapshot()
+    rest = sim.step({"lateral": 0.5}, dt="0.1 s").y
+    sim.restore(pickle.loads(pickle.dumps(kept)))
+    assert np.array_equal(sim.step({"lateral": 0.5}, dt="0.1 s").y, rest)
+    for make, named in (
+        (lambda: wf.from_control(control.ss([], [], [], [[1.0]])), "signals = 'u\\[0\\]'"),
+        (lambda: wf.from_control(discrete, signals="p", outputs="rudder"), "outputs = 'rudder'"),
+        (lambda: wf.from_control(discrete, signals=("p", "q"), outputs="lateral"), "must be 1 different names"),
+        (lambda: wf.from_control(discrete, signals="p", outputs="lateral", rate="10 Hz"), "is that of the system"),
+        (lambda: wf.from_control("a", signals="p", outputs="lateral"), "state space or a transfer function"),
+        (lambda: wf.from_control(control.ss([], [], [], [[1.0]], True), "p", "lateral"), "rate = None: must be given"),
+    ):
+        with pytest.raises(wf.InputError, match=named):
+            make()
