@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from .errors import InputError, NumericalFailure, WakeflightError
     from .flight import Flight, fly
     from .inflow import AnnularInflow, DynamicInflow, RelaxationWake, TimeMarchingWake, inflow_model
+    from .linear import LinearModel, linearize
     from .maneuvers import Maneuver, arrested_descent, load_maneuver, roll_reversal
     from .modes import blade_modes
     from .references import bibtex
@@ -53,6 +54,8 @@ _HOME = {
     "RelaxationWake": "inflow",
     "TimeMarchingWake": "inflow",
     "inflow_model": "inflow",
+    "LinearModel": "linear",
+    "linearize": "linear",
     "Maneuver": "maneuvers",
     "arrested_descent": "maneuvers",
     "load_maneuver": "maneuvers",
@@ -77,6 +80,7 @@ __all__ = [
     "Flight",
     "FlightCondition",
     "InputError",
+    "LinearModel",
     "Maneuver",
     "NumericalFailure",
     "RelaxationWake",
@@ -98,6 +102,7 @@ __all__ = [
     "fly",
     "induced_velocity",
     "inflow_model",
+    "linearize",
     "load_aircraft",
     "load_maneuver",
     "load_rotor",
