@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from .condition import FlightCondition, condition_for
     from .errors import InputError, NumericalFailure, WakeflightError
     from .flight import Flight, fly
+    from .handling import HandlingQualities, handling_qualities
     from .inflow import AnnularInflow, DynamicInflow, RelaxationWake, TimeMarchingWake, inflow_model
     from .linear import LinearModel, linearize
     from .maneuvers import Maneuver, arrested_descent, load_maneuver, roll_reversal
@@ -49,6 +50,8 @@ _HOME = {
     "WakeflightError": "errors",
     "Flight": "flight",
     "fly": "flight",
+    "HandlingQualities": "handling",
+    "handling_qualities": "handling",
     "AnnularInflow": "inflow",
     "DynamicInflow": "inflow",
     "RelaxationWake": "inflow",
@@ -79,6 +82,7 @@ __all__ = [
     "DynamicInflow",
     "Flight",
     "FlightCondition",
+    "HandlingQualities",
     "InputError",
     "LinearModel",
     "Maneuver",
@@ -100,6 +104,7 @@ __all__ = [
     "condition_for",
     "converge",
     "fly",
+    "handling_qualities",
     "induced_velocity",
     "inflow_model",
     "linearize",

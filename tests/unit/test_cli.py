@@ -112,6 +112,12 @@ def _nothing_starts(monkeypatch):
         (["trim", "--sideslip", "5 deg", "--bank", "5 deg"], "sideslip"),
         (["modes", "--aircraft", "uh61"], "uh61"),
         (["modes", "--modes", "0"], "--modes"),
+        (["linearize", "--speed", "80"], "speed"),
+        (["linearize", "--order", "small"], "--order"),
+        (["linearize", "--inputs", "lateral,rudder"], "rudder"),
+        (["linearize", "--linear-wake", "magic"], "wake = 'magic'"),
+        (["linearize", "--inflow", "relaxation", "--linear-wake", "states"], "is not built"),
+        (["linearize", "--method", "guess"], "guess"),
         (["report", "/nowhere/run.nc"], "/nowhere/run.nc"),
     ],
 )

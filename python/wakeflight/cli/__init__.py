@@ -12,7 +12,7 @@ import sys
 import typer
 
 from ..errors import NumericalFailure, WakeflightError, one_line
-from . import compare, converge, fly, modes, paper, report, trim, tunnel, validate
+from . import compare, converge, fly, linearize, modes, paper, report, trim, tunnel, validate
 from .groups import expanded
 
 app = typer.Typer(
@@ -28,6 +28,7 @@ for _command in (
     compare.compare,
     trim.trim,
     modes.modes,
+    linearize.linearize,
     report.report,
     converge.converge,
     validate.validate,

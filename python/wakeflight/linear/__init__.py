@@ -52,8 +52,7 @@ def linearize(
     check_inputs(asked, turning)
     if blades not in BLADES:
         raise InputError.of("blades", blades, f"allowed: {', '.join(BLADES)}")
-    if method not in METHODS:
-        raise InputError.of("method", method, f"allowed: {', '.join(METHODS)}")
+    check_method(method)
     if isinstance(order, str) and order != "full":
         raise InputError.of("order", order, "must be a number of states, names of states to keep, or full")
     wake = check_wake(wake, start.inflow)
@@ -77,6 +76,12 @@ def linearize(
     si = tuple(each for _, _, each in units_of(asked))
     found = Linearized.from_periodic(constant, system, kept, si, flat_attributes(attributes))
     return found if order is None or isinstance(order, str) else found.reduce(order)
+
+
+def check_method(method: str) -> None:
+    """Refuse a way from the periodic system to a constant one that there is not."""
+    if method not in METHODS:
+        raise InputError.of("method", method, f"allowed: {', '.join(METHODS)}")
 
 
 def _azimuths(asked: Any, start: Trim) -> int:

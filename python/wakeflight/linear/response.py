@@ -3,20 +3,36 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 Matrices = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
 """A, B, C, D."""
 
 
-def frequency_response(system: Matrices, w: np.ndarray) -> np.ndarray:
-    """C (i w - A)^-1 B + D (len(w), outputs, inputs) at frequencies `w` [rad/s]; one Schur form serves all of them."""
-    from scipy.linalg import schur, solve_triangular
+def harmonic_response(system: Matrices) -> Callable[[np.ndarray], np.ndarray]:
+    """C (i w - A)^-1 B + D (len(w), outputs, inputs) as a function of `w` [rad/s]; one Schur form serves all calls."""
+    from scipy.linalg import schur
 
     a, b, c, d = system
     triangle, basis = schur(a, output="complex")
-    right, left, eye = basis.conj().T @ b, c @ basis, np.eye(a.shape[0])
-    return np.array([left @ solve_triangular(1j * each * eye - triangle, right) + d for each in w])
+    right, left = basis.conj().T @ b, c @ basis
+
+    def response(w: np.ndarray) -> np.ndarray:
+        x = np.empty((a.shape[0], w.size * b.shape[1]), complex)
+        s = 1j * np.repeat(w, b.shape[1])
+        # from the last row of the triangle upwards, all frequencies and inputs at once
+        for i in range(a.shape[0] - 1, -1, -1):
+            x[i] = (np.tile(right[i], w.size) + triangle[i, i + 1 :] @ x[i + 1 :]) / (s - triangle[i, i])
+        return (left @ x).reshape(c.shape[0], w.size, b.shape[1]).transpose(1, 0, 2) + d
+
+    return response
+
+
+def frequency_response(system: Matrices, w: np.ndarray) -> np.ndarray:
+    """The same at frequencies `w`."""
+    return harmonic_response(system)(w)
 
 
 def time_response(system: Matrices, time: np.ndarray, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

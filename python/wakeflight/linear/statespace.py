@@ -14,8 +14,9 @@ from ..errors import InputError
 from ..views import html_table
 from .control import control_model
 from .modes import Modes, modes
+from .names import MOTION
 from .periodic import Named
-from .reduction import ON_AXIS, balanced, good_to, is_attitude_held, kept_states, quasi_static, without
+from .reduction import ON_AXIS, RIGID, balanced, good_to, is_attitude_held, kept_states, quasi_static, without
 from .response import Matrices, frequency_response, time_response
 
 if TYPE_CHECKING:
@@ -158,6 +159,19 @@ class LinearModel:
             imaginary = f" ± {root.imag:.4f}i" if root.imag > 1e-9 else ""
             damping = -root.real / abs(root) if abs(root) else 0.0
             lines.append(f"{f'{root.real:+.4f}{imaginary}':<26}  {abs(root):17.3f}  {damping:7.3f}  {name}")
+        return "\n".join(lines)
+
+    def derivatives_table(self) -> str:
+        """Stability and control derivatives to print: rows of the body's accelerations, the rest at once [SI, 1/in]."""
+        names = [name for name, _ in self.states]
+        if all(name in names for name in RIGID) and len(names) > len(RIGID):
+            return self.reduce(len(RIGID)).derivatives_table()
+        rows = [i for i, name in enumerate(names) if name in MOTION]
+        columns = [*names, *(name for name, _ in self.inputs)]
+        values = np.hstack([self.matrices[0], self.matrices[1]])
+        width = max(9, *(len(name) + 1 for name in columns))
+        lines = ["     " + "".join(f"{name:>{width}}" for name in columns)]
+        lines += [f"{names[i]:<5}" + "".join(f"{value:>{width}.4f}" for value in values[i]) for i in rows]
         return "\n".join(lines)
 
     # --- responses -----------------------------------------------------------------------------------------
