@@ -24,6 +24,7 @@ ROOMS = {
     "report": ("report",),
     "plotting": ("plotting",),
     "export": ("export",),
+    "linear": ("linear", "handling"),
     "flight": ("flight*", "recorder", "simulation", "stepping", "snapshot", "integrators"),
     "tunnel": ("tunnel",),
     "trim": ("trim",),
@@ -49,6 +50,7 @@ ROOMS = {
 
 MEANING = {
     "flight": "a simulation stepped, kept and continued; a manoeuvre flown with it; integrators, what is recorded",
+    "linear": "linear models about a trim: derivatives, periodic and constant systems, modes, reduction; handling qualities",
     "trim": "the state in which the aircraft stays: unknowns, equations, free wake in the loop",
     "exchange": "what blades and wake give each other at every azimuth step",
     "model": "what is compiled of aircraft, condition and inflow; blade modes; vortices, wings and sections by themselves",

@@ -36,7 +36,9 @@ if TYPE_CHECKING:
     from .errors import InputError, NumericalFailure, WakeflightError
     from .export import export
     from .flight import Flight, fly
+    from .handling import HandlingQualities, handling_qualities
     from .inflow import AnnularInflow, DynamicInflow, RelaxationWake, TimeMarchingWake, inflow_model
+    from .linear import LinearModel, linearize
     from .maneuvers import Maneuver, arrested_descent, load_maneuver, roll_reversal
     from .modes import blade_modes
     from .references import bibtex
@@ -74,11 +76,15 @@ _HOME = {
     "export": "export",
     "Flight": "flight",
     "fly": "flight",
+    "HandlingQualities": "handling",
+    "handling_qualities": "handling",
     "AnnularInflow": "inflow",
     "DynamicInflow": "inflow",
     "RelaxationWake": "inflow",
     "TimeMarchingWake": "inflow",
     "inflow_model": "inflow",
+    "LinearModel": "linear",
+    "linearize": "linear",
     "Maneuver": "maneuvers",
     "arrested_descent": "maneuvers",
     "load_maneuver": "maneuvers",
@@ -106,7 +112,9 @@ __all__ = [
     "DynamicInflow",
     "Flight",
     "FlightCondition",
+    "HandlingQualities",
     "InputError",
+    "LinearModel",
     "Maneuver",
     "NumericalFailure",
     "PitchBiasActuator",
@@ -133,8 +141,10 @@ __all__ = [
     "export",
     "fly",
     "from_control",
+    "handling_qualities",
     "induced_velocity",
     "inflow_model",
+    "linearize",
     "load_aircraft",
     "load_control",
     "load_maneuver",

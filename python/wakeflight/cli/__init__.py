@@ -16,7 +16,7 @@ from typing import Annotated
 import typer
 
 from ..errors import NumericalFailure, WakeflightError, one_line, shortened
-from . import case, compare, converge, export, fly, listing, modes, paper, report, trim, tunnel, validate
+from . import case, compare, converge, export, fly, linearize, listing, modes, paper, report, trim, tunnel, validate
 from .groups import expanded
 
 app = typer.Typer(
@@ -32,6 +32,7 @@ for _command in (
     compare.compare,
     trim.trim,
     modes.modes,
+    linearize.linearize,
     report.report,
     converge.converge,
     validate.validate,
