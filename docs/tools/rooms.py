@@ -31,9 +31,20 @@ ROOMS = {
     "model": ("model", "modes", "vortex", "wing", "airfoil_loop"),
     "monitors": ("monitors", "limits"),
     "aircraft": ("aircraft", "thinning"),
-    "inputs": ("condition", "inflow", "maneuvers", "options", "presets", "regime", "rotor_speed", "units", "text"),
+    "inputs": (
+        "condition",
+        "inflow",
+        "maneuvers",
+        "options",
+        "presets",
+        "regime",
+        "rotor_speed",
+        "units",
+        "text",
+        "sticks",
+    ),
     "results": ("results",),
-    "basics": ("errors", "references", "progress", "views"),
+    "basics": ("errors", "arguments", "atomic", "references", "progress", "views"),
 }
 """Rooms of Python and the modules in them; a module that is in none is a room of its own."""
 
@@ -44,7 +55,7 @@ MEANING = {
     "model": "what is compiled of aircraft, condition and inflow; blade modes; vortices, wings and sections by themselves",
     "monitors": "what is watched of a result, and its limits",
     "inputs": "condition, inflow models and their options, manoeuvres, units: what a user states",
-    "basics": "errors, bibliography, progress, tables for notebooks",
+    "basics": "errors, arguments checked by their annotations, bibliography, progress, tables for notebooks",
     "_core": "the border: shapes and numbers checked, nothing calculated",
 }
 """Rooms whose text is not that of a package."""

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from . import _core
 from .aircraft import Aircraft, Rotor
 from .aircraft.section_at import section_at
+from .arguments import checked
 from .errors import InputError, NumericalFailure
 from .results import assemble_loop
 from .units import number, quantity, whole
@@ -21,6 +22,7 @@ MOTIONS = ("pitch", "plunge")
 COLUMNS = ("phase", "alpha", "cl", "cl_circulatory", "cd", "cm", "cn", "alpha_effective", "separation", "work")
 
 
+@checked
 def airfoil_loop(
     airfoil: str | Path | Aircraft | Rotor = "uh60a",
     mean: Any = "10 deg",

@@ -8,6 +8,7 @@ from dataclasses import dataclass, fields
 from typing import Any, Protocol
 
 from . import regime as regimes
+from .arguments import checked
 from .errors import InputError
 from .units import STANDARD_GRAVITY, convert, mass_of_weight, number, quantity, shown
 
@@ -90,6 +91,7 @@ class FlightCondition:
     load_factor: float | None
     turn: str | None
 
+    @checked
     def __init__(
         self,
         speed: Any = None,
@@ -196,6 +198,7 @@ class FlightCondition:
         return {name: value for name, value in values.items() if value is not None}
 
 
+@checked
 def condition_for(
     aircraft: Completing, condition: FlightCondition | None = None, named: str | None = None, **given: Any
 ) -> FlightCondition:

@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""The two ways a run can end early: input that cannot be used, and numbers that cannot go on."""
+"""The ways a run can end early: input that cannot be used, numbers that cannot go on, a disk that does not take it, a signal."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from difflib import get_close_matches
 from typing import Any
+
+LONGEST = 640
+"""Longest message of an input error: a line that a person reads. What is beyond is left out of its middle."""
 
 
 class WakeflightError(Exception):
@@ -19,11 +22,23 @@ class InputError(WakeflightError, ValueError):
 
     exit_code = 2
 
+    def __init__(self, message: str) -> None:
+        """Keep `message` as one line that can be printed."""
+        super().__init__(shortened(one_line(message), LONGEST))
+
     @classmethod
     def of(cls, field: str, value: object, allowed: str, file: object = None) -> InputError:
         """Error about one field: `file: field = value: allowed`."""
-        where = f"{file}: " if file is not None else ""
-        return cls(one_line(f"{where}{field} = {_shown(value)}: {allowed}"))
+        where = f"{shortened(str(file), 240)}: " if file is not None else ""
+        return cls(f"{where}{shortened(str(field), 120)} = {_shown(value)}: {allowed}")
+
+    def within(self, file: object) -> InputError:
+        """The same error with the file it is found in, said once."""
+        return self if str(file) in str(self) else type(self)(f"{shortened(str(file), 240)}: {self}")
+
+
+class ArgumentError(InputError, TypeError):
+    """Arguments that do not fit a function: one too many, one missing, one that it does not have."""
 
     @classmethod
     def choice(cls, field: str, value: object, names: Iterable[str], more: str = "", file: object = None) -> InputError:
@@ -47,12 +62,55 @@ class NumericalFailure(WakeflightError, RuntimeError):
         self.partial = partial
 
 
-def one_line(text: str) -> str:
-    """`text` with its line breaks and runs of blanks made single blanks."""
-    return " ".join(str(text).split())
+class StorageFailure(WakeflightError):
+    """Something that could not be written: which file and why; what had been written before is whole."""
+
+    exit_code = 3
+
+    @classmethod
+    def of(cls, path: object, reason: OSError) -> StorageFailure:
+        """From what the system said of `path`."""
+        return cls(one_line(f"{path}: cannot be written: {reason.strerror or reason}"))
+
+
+class Interrupted(WakeflightError):
+    """A signal ended the work: what was flown is kept; `exit_code` is that of the shell, 128 and the signal's number.
+
+    partial: whatever the verb had computed (a flight), None if nothing.
+    """
+
+    def __init__(self, message: str, signal: int, partial: Any = None) -> None:
+        super().__init__(one_line(message))
+        self.exit_code = 128 + signal
+        self.partial = partial
+
+
+def one_line(text: object) -> str:
+    """`text` with line breaks and runs of blanks made single blanks, and what cannot be printed written as its escape.
+
+    Names come from files: an escape sequence of a terminal or a mark that turns the direction of writing stays visible text.
+    """
+    words = " ".join(str(text).split())
+    if words.isprintable():
+        return words
+    return "".join(each if each.isprintable() else ascii(each)[1:-1] for each in words)
+
+
+def shortened(text: str, width: int) -> str:
+    """`text`, of what is longer than `width` its begin and its end."""
+    if len(text) <= width:
+        return text
+    head = (width - 5) * 2 // 3
+    return f"{text[:head]} ... {text[head + 5 - width :]}"
 
 
 def _shown(value: object, width: int = 80) -> str:
-    """`value` as a person would type it, shortened."""
-    text = one_line(f"'{value}'" if isinstance(value, str) else str(value))
+    """`value` as a person would type it, shortened; what does not show itself, by its type."""
+    if isinstance(value, str | bytes):
+        # only what is shown is looked at: a value may have the length of a file
+        value = value[: 4 * width]
+    try:
+        text = one_line(f"'{value}'" if isinstance(value, str) else value)
+    except Exception:  # whatever another's object raises when it is printed
+        text = f"<{type(value).__name__}>"
     return text if len(text) <= width else text[: width - 3] + "..."

@@ -7,10 +7,12 @@ import time
 from bisect import bisect_left, bisect_right
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .arguments import checked
+from .control import augmentation
 from .errors import InputError, NumericalFailure
 from .flight_monitors import monitors
 from .inflow import InflowModel
@@ -107,6 +109,7 @@ class Sticks:
 
 
 @reporting
+@checked
 def fly(
     start: Trim,
     maneuver: Maneuver,
@@ -117,6 +120,8 @@ def fly(
     rtol: float = RTOL,
     stabilator: str = "held",
     rotor_speed: RotorSpeed = CONSTANT,
+    control: Any = None,
+    actuators: Any = None,
 ) -> Flight:
     """Fly `maneuver` from `start`.
 
@@ -127,6 +132,8 @@ def fly(
     rotor_speed: `constant`, or pairs (time, share of the nominal speed) such as `[("0.5 s", 1.0), ("1.5 s", 0.95)]`, linear
     between them and steady after the last; with dynamic inflow. The tail rotor is geared to the main rotor; a coupling step stays
     a step of azimuth; coefficients and inflow are counted at the nominal speed.
+    control: what is between sticks and blades: a `wf.Controller`, a list of them or a `wf.Augmentation`; None is the manoeuvre's
+    own, where its file has one; an empty list: nothing. actuators: servos behind the mixing unit, `generic` or `wf.Servos(...)`.
 
     inflow: name or model, by default time-marching from a trim on a free wake, dynamic from a dynamic one. Wake options that
     depend on the regime (turns kept, far wake, relaxation) stay those of the trimmed condition for the whole flight, whatever
@@ -136,10 +143,11 @@ def fly(
     """
     progress = heard(progress)
     begun = time.perf_counter()
-    sim = Simulation.prepared(start, inflow, integrator, rtol, stabilator, rotor_speed)
-    model, clock = sim.model, sim.clock
     travel = start.aircraft.stick_travel_in
-    maneuver = maneuver.for_aircraft(travel, model.omega)
+    maneuver = maneuver.for_aircraft(travel, start.model.omega)
+    made = augmentation(maneuver.control if control is None else control, actuators)
+    sim = Simulation.prepared(start, inflow, integrator, rtol, stabilator, rotor_speed, made)
+    model, clock = sim.model, sim.clock
     n_steps = flown_steps(model, maneuver, revolutions)
     warnings = maneuver.check_travel(start.stick_si / INCH, travel, None, start.aircraft.stick_rate_limit_in)
     warnings += maneuver.check_end(max(clock.time(n_steps), maneuver.duration(model.omega)))
@@ -160,7 +168,7 @@ def fly(
         for _ in range(n_steps):
             sim.follow(sticks, recorder.record)
             progress.advance(1 / model.steps_per_revolution, f"t = {sim.t:.2f} s")
-        recorder.record(sim.instant(sticks, ends=True))
+        recorder.record(sim.last(sticks))
     except (NumericalFailure, ArithmeticError, np.linalg.LinAlgError) as reason:
         revolution = (recorder.n_recorded - 1) / model.steps_per_revolution
         failure = f"flight of {maneuver.name} stopped in revolution {revolution:.2f}: {reason}"

@@ -7,6 +7,7 @@ import numpy as np
 
 from .monitors import Monitor, Places, airframe, rotor
 from .recorder import Recorder
+from .sticks import INCH, STICKS
 from .trim.monitors import section_monitors
 
 
@@ -23,8 +24,7 @@ def monitors(run: Recorder) -> tuple[Monitor, ...]:
     theta = np.array([model.pitch_controls(row) for row in stick])[:, [2, 0, 1]]
     motion = (np.linalg.norm(y[:, :3], axis=1), np.linalg.norm(y[:, 3:6], axis=1))
     passage = model.steps_per_revolution // model.n_blades
-    names = ("lateral", "longitudinal", "collective", "pedal")
-    inches = dict(zip(names, stick.T / 0.0254, strict=True))
+    inches = dict(zip(STICKS, run.log.pilot[:n].T / INCH, strict=True))
     engine = rotor.over_passage(run.scalars["power"][:n], passage)
     shaft = rotor.over_passage(-model.hand * run.loads["hub_moment"][:n, 2], passage)
     found = [

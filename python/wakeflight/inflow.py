@@ -15,6 +15,7 @@ from dataclasses import dataclass, fields, replace
 from typing import Any, ClassVar, Protocol, Self, TypeVar
 
 from . import _core
+from .arguments import checked, with_checked_init
 from .errors import InputError
 from .options import options_of, resolved
 from .presets import preset
@@ -86,6 +87,7 @@ class Inflow:
         return f"{type(self).__name__}({', '.join(given)})"
 
     @classmethod
+    @checked
     def preset(cls, name: str = "standard", **given: Any) -> Self:
         """The model with the options of a preset (`standard`, `paper`, `reference`), single ones replaced by those given."""
         return cls(**{**preset(cls.name, name), **given})
@@ -218,7 +220,7 @@ def _with_options(kind: Kind) -> Kind:
         lines += [f"        {word}: {meaning}" for word, meaning in option.words.items()]
     kind.__doc__ = "\n".join([f"{kind.__doc__}", "", "    Options", "    -------", *lines])
     made: Callable[[Kind], Kind] = dataclass(frozen=True, kw_only=True, repr=False)
-    return made(kind)
+    return with_checked_init(made(kind))
 
 
 @_with_options
@@ -280,6 +282,7 @@ STAND_MODELS: dict[str, type[Inflow]] = {**MODELS, AnnularInflow.name: AnnularIn
 """Models of a rotor on a stand."""
 
 
+@checked
 def inflow_model(inflow: Any = "time-marching", known: Mapping[str, type[Inflow]] = MODELS) -> Any:
     """Model from its name, or the configured model itself; one of those `known`."""
     if isinstance(inflow, tuple(known.values())):

@@ -21,15 +21,15 @@ from typing import Annotated, Any
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
+from .arguments import checked, with_checked_init
+from .control import Augmentation, from_table
 from .errors import InputError, one_line
 from .references import known_keys
-from .text import read_toml
+from .sticks import STICKS
+from .text import is_file, read_toml
 from .units import number, quantity
 
-STICKS = ("lateral", "longitudinal", "collective", "pedal")
-"""Order of sticks everywhere: right +, aft +, up +, right +, inches from the stop."""
-
-SHIPPED = ("arrested-descent", "roll-reversal")
+SHIPPED = ("arrested-descent", "roll-reversal", "roll-reversal-augmented")
 """Names of the manoeuvres that come with the package."""
 
 ROUNDING = 1e-9
@@ -43,6 +43,7 @@ _Real = Annotated[float, Field(strict=True)]
 _Points = list[tuple[_Real, _Real]] | None
 
 
+@with_checked_init
 @dataclass(frozen=True)
 class Maneuver:
     """A stick history about trim.
@@ -51,12 +52,12 @@ class Maneuver:
     by the stick's name or as pairs.
     revolutions, seconds: duration, one of the two given. travel_in: travel the inches belong to [in], rotor_speed: rotor
     speed the revolutions belong to [rad/s]; None: they are those of whatever aircraft flies. shipped: whether it comes with
-    the package and is flown as published, even beyond the stops. adapted: what `for_aircraft` changed, a sentence each.
+    the package and is flown as published, even beyond the stops. adapted: what `for_aircraft` changed, a sentence each. control:
+    what is between sticks and blades where a flight is not given another, its inches those of `travel_in`.
     """
 
     name: str
-    # a mapping or pairs as given, pairs of tuples as kept
-    corners_of: Any
+    corners_of: Annotated[tuple[tuple[str, tuple[Corner, ...]], ...], Mapping[str, Any] | Sequence[Any]]
     revolutions: float | None = None
     seconds: float | None = None
     notes: str = ""
@@ -65,6 +66,7 @@ class Maneuver:
     rotor_speed: float | None = None
     shipped: bool = False
     adapted: tuple[str, ...] = ()
+    control: Augmentation | None = None
 
     def __post_init__(self) -> None:
         """Check names, times and values."""
@@ -194,6 +196,13 @@ class Maneuver:
                     f"travel and this stick has {travel:.4g} in; times as written"
                 )
             corners_of.append((stick, corners))
+        control = self.control
+        if control is not None and self.travel_in is not None:
+            shares = [travel / self.travel_in for travel in travel_in]
+            # the one travel of a file is that of the hand's sticks: pedals have their own
+            control = control.scaled([*shares[:3], 1.0])
+            if any(abs(share - 1.0) > 1e-9 for share in shares[:3]):
+                adapted.append(f"{self.name}: inches of its augmentation times travel over {self.travel_in:g} in")
         revolutions = self.revolutions
         if self.revolutions is not None:
             revolutions = self.duration_revolutions(omega)
@@ -210,6 +219,7 @@ class Maneuver:
             travel_in=None,
             rotor_speed=None,
             adapted=tuple(adapted),
+            control=control,
         )
         own._check_begins(own.duration(omega))
         return own
@@ -255,6 +265,7 @@ class Maneuver:
         return warnings
 
 
+@checked
 def arrested_descent(start: Any = None) -> Maneuver:
     """Arrested descent [ribera2004]: collective up by 3.7 in and back, 12 revolutions.
 
@@ -275,20 +286,22 @@ def arrested_descent(start: Any = None) -> Maneuver:
     return replace(maneuver, corners_of=moved)
 
 
+@checked
 def roll_reversal() -> Maneuver:
     """Roll reversal [ribera2004]: lateral stick right, left, right and back to trim, 36 revolutions."""
     return _shipped("roll-reversal")
 
 
+@checked
 def load_maneuver(name_or_path: str | Path) -> Maneuver:
-    """Manoeuvre from a shipped name (`arrested-descent`, `roll-reversal`) or the path of a TOML file.
+    """Manoeuvre from a shipped name (`arrested-descent`, `roll-reversal`, `roll-reversal-augmented`) or the path of a TOML file.
 
     Raises InputError, one line naming file, key, value and what is allowed.
     """
     if str(name_or_path) in SHIPPED:
         return _shipped(str(name_or_path))
     path = Path(name_or_path)
-    if not path.is_file():
+    if not is_file(path):
         raise InputError.choice(
             "maneuver",
             str(name_or_path),
@@ -327,6 +340,7 @@ class _File(BaseModel):
     sources: list[str] = []
     travel: _Real | None = None
     rotor_speed: _Real | None = None
+    control: dict[str, Any] | None = None
 
 
 def _shipped(name: str) -> Maneuver:
@@ -350,6 +364,7 @@ def _read(path: Path, shipped: bool) -> Maneuver:
             raise InputError.of(key, "unknown key", f"allowed: {', '.join(group.model_fields)}", file=path) from None
         value = "missing" if error["type"] == "missing" else error["input"]
         raise InputError.of(key, value, message, file=path) from None
+    control = None if file.control is None else from_table(file.control, path)
     corners = tuple((stick, tuple(points)) for stick in STICKS if (points := getattr(file.controls, stick)) is not None)
     try:
         return Maneuver(
@@ -362,6 +377,7 @@ def _read(path: Path, shipped: bool) -> Maneuver:
             travel_in=file.travel,
             rotor_speed=file.rotor_speed,
             shipped=shipped,
+            control=control,
         )
     except InputError as reason:
         raise InputError(f"{path}: {reason}") from None

@@ -5,15 +5,21 @@ from __future__ import annotations
 
 import csv
 import json
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
 from . import _core
 from .aircraft import Aircraft, Rotor, load_rotor
+from .arguments import checked
 from .errors import InputError
+from .units import number, whole
 
+MOST_MODES = 500
+"""Most modes that can be asked for: five of each of a hundred finite elements."""
 KINDS = ("flap", "lag", "torsion")
 CLEAR = 0.7
 """Share of the kinetic energy from which a mode is called by one kind alone."""
@@ -106,8 +112,9 @@ class BladeModes:
         return "\n".join(lines)
 
 
+@checked
 def blade_modes(
-    aircraft: Aircraft | Rotor,
+    aircraft: str | Path | Aircraft | Rotor,
     n_modes: int | None = None,
     n_elements: int | None = None,
     rotor_speed: float | None = None,
@@ -125,19 +132,16 @@ def blade_modes(
     if d.n_modes == 0:
         raise InputError.of("blade", "rigid and clamped", "must bend or have hinges: it has no modes", file=rotor.path)
     n_modes = d.n_modes if n_modes is None else n_modes
-    if not isinstance(n_modes, int | np.integer) or isinstance(n_modes, bool) or n_modes < 1:
-        raise InputError.of("n_modes", n_modes, "must be a whole number above 0")
-    n_modes = int(n_modes)
+    n_modes = whole("n_modes", n_modes, 1, MOST_MODES)
     n_elements = max(d.n_elements, -(-n_modes // 5)) if n_elements is None else n_elements
-    if not isinstance(n_elements, int | np.integer) or isinstance(n_elements, bool) or not 1 <= n_elements <= 100:
-        raise InputError.of("n_elements", n_elements, "must be a whole number from 1 to 100")
-    omega = float(rotor.omega) if rotor_speed is None else float(rotor_speed)
-    if not 0.0 <= omega < np.inf:
-        raise InputError.of("rotor_speed", rotor_speed, "must be finite and not negative [rad/s]")
-    pitch = d.reference_pitch if reference_pitch is None else float(reference_pitch)
+    n_elements = whole("n_elements", n_elements, 1, 100)
+    omega = float(rotor.omega) if rotor_speed is None else number("rotor_speed", rotor_speed, 0.0, 1e4)
+    pitch = d.reference_pitch
+    if reference_pitch is not None:
+        pitch = number("reference_pitch", reference_pitch, -math.pi, math.pi)
     blade = rotor.data["blade"]
     try:
-        core = _core.BladeModes(json.dumps(blade), omega, pitch, int(n_elements), n_modes)
+        core = _core.BladeModes(json.dumps(blade), omega, pitch, n_elements, n_modes)
     except ValueError as reason:
         raise InputError(f"{rotor.path}: {reason}") from None
     radius = np.linspace(blade["root_station"], blade["radius"], 201)

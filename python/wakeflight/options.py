@@ -81,7 +81,7 @@ class Option:
         if value is None and self.default is None:
             return None
         if self.kind == "word":
-            if value not in self.words:
+            if not isinstance(value, str) or value not in self.words:
                 raise InputError.choice(self.name, value, self.words)
             return value
         if self.kind == "switch":

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .control import ControlLog
 from .errors import NumericalFailure
 from .maneuvers import Maneuver
 from .model import Model
@@ -28,7 +29,7 @@ STATION_FIELDS = ("inflow", "circulation", "cl", "cl_m2", "alpha", "mach")
 
 
 class Recorder:
-    """Arrays of a run, filled step by step."""
+    """Arrays of a run, filled step by step; `stick` is what reaches the blades."""
 
     def __init__(self, sim: Simulation, maneuver: Maneuver, n_steps: int):
         self.model, self.start, self.maneuver = sim.model, sim.start, maneuver
@@ -39,6 +40,7 @@ class Recorder:
         self.time = np.empty(n)
         self.state = np.empty((n, model.layout["size"]))
         self.stick = np.empty((n, 4))
+        self.log, self.control = ControlLog(sim.chain, n), sim.control
         self.blade = {name: np.empty((n, blades, stations)) for name in STATION_FIELDS}
         self.azimuth = np.empty((n, blades))
         self.loads = {name: np.empty((n, 3)) for name in ("force", "moment", "hub_force", "hub_moment")}
@@ -71,6 +73,7 @@ class Recorder:
         step, t, y, stick = at.step, at.t, at.y, at.stick
         out = self.model.core.outputs(t, y, at.y_dot, at.inputs)
         self.time[step], self.state[step], self.stick[step] = t, y, stick
+        self.log.record(step, stick)
         self.azimuth[step] = out["azimuth"]
         for name, values in self.blade.items():
             values[step] = out[name]
@@ -133,8 +136,7 @@ class Recorder:
         }
         arrays |= dict(zip("uvwpqr", y[:, :6].T, strict=True))
         arrays |= dict(zip(("north", "east", "down"), y[:, 10:13].T, strict=True))
-        names = ("lateral", "longitudinal", "collective", "pedal")
-        arrays |= dict(zip(names, self.stick[:n].T / 0.0254, strict=True))
+        arrays |= self.log.arrays(n, self.stick[:n])
         for kind in ("force", "moment"):
             arrays |= dict(zip((f"{kind}_x", f"{kind}_y", f"{kind}_z"), self.loads[kind][:n].T, strict=True))
         arrays |= {name: values[:n] for name, values in self.blade.items()}
@@ -154,6 +156,7 @@ class Recorder:
                 **self._describe(),
                 **attributes,
                 **counted,
+                **self.log.attributes(),
                 **convergence_attributes(self.phase),
                 "warnings": "\n".join(warnings),
                 "failure": failure or "",
@@ -234,6 +237,7 @@ class Recorder:
             "discretisation": start.aircraft.discretisation._asdict(),
             "trim_inflow": start.inflow.name,
             **({"rotor_speed": [list(corner) for corner in model.rotor_speed]} if model.rotor_speed else {}),
+            **({} if self.control.nothing else {"control": self.control.described()}),
             "maneuver": {
                 "name": self.maneuver.name,
                 "adapted": list(self.maneuver.adapted),

@@ -8,6 +8,7 @@ from collections.abc import Iterable
 from functools import cache
 from importlib import resources
 
+from .arguments import checked
 from .errors import InputError
 
 _ENTRY = re.compile(r"^@\w+\{([^,\s]+),.*?^\}", re.MULTILINE | re.DOTALL)
@@ -24,10 +25,11 @@ def known_keys() -> frozenset[str]:
     return frozenset(_entries())
 
 
+@checked
 def bibtex(keys: Iterable[str]) -> str:
     """BibTeX of `keys`, each once, sorted by key."""
-    wanted = sorted(set(keys))
+    wanted = tuple(keys)
     for key in wanted:
-        if key not in _entries():
+        if not isinstance(key, str) or key not in _entries():
             raise InputError.of("reference", key, "not a key of references.bib")
-    return "\n\n".join(_entries()[key] for key in wanted)
+    return "\n\n".join(_entries()[key] for key in sorted(set(wanted)))

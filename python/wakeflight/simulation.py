@@ -18,44 +18,27 @@ from typing import Any
 
 import numpy as np
 
+from . import _core
+from .arguments import checked
+from .control import Augmentation, Chain, Sensors, augmentation
 from .errors import InputError, NumericalFailure
 from .exchange import Exchange, exchange_of
 from .inflow import InflowModel, inflow_model, like
 from .integrators import INTEGRATORS
-from .maneuvers import STICKS
 from .model import Model, flight_regime
 from .progress import Progress, Reported, Silent, heard
-from .rotor_speed import CONSTANT, RotorSpeed, history
+from .rotor_speed import CONSTANT, RotorSpeed, history, shares
 from .snapshot import Snapshot
-from .stepping import Stepping
+from .stepping import Instant, Stepping
+from .sticks import STICKS, Ramp, StickPath
 from .trim import INCH, Trim
-from .units import quantity
+from .units import number, quantity
 from .views import html_table
 
 RTOL = 1e-5
 """Relative tolerance of the solver that the absolute ones belong to."""
-
-
-@dataclass(frozen=True)
-class Ramp:
-    """Sticks [m] that go from one place to another in a coupling step, and arrive with the rate they moved at."""
-
-    begin: float
-    end: float
-    start: np.ndarray
-    target: np.ndarray
-
-    def at(self, t: float) -> np.ndarray:
-        """Positions (4,) [m from the stop] at time `t` [s]."""
-        return self.target if t >= self.end else self.start + self.rate(t) * (t - self.begin)
-
-    def rate(self, t: float) -> np.ndarray:
-        """Rates (4,) [m/s]."""
-        return (self.target - self.start) / (self.end - self.begin)
-
-    def pieces(self, t0: float, t1: float) -> list[tuple[float, float]]:
-        """One."""
-        return [(t0, t1)]
+RTOLS = (1e-14, 0.1)
+"""Least and largest relative tolerance that can be asked for."""
 
 
 @dataclass(frozen=True)
@@ -73,7 +56,7 @@ class State:
     position: np.ndarray
     """North, east, down [m]."""
     stick: dict[str, float]
-    """Sticks by name [inches about trim]."""
+    """Sticks of the pilot by name [inches about trim]."""
 
 
 @dataclass
@@ -93,7 +76,8 @@ class Simulation(Stepping):
 
     inflow: name or model as for `fly`, by default time-marching from a trim on a free wake, dynamic from a dynamic one; a
     marching wake goes through its convergence phase here. integrator: `fixed`, one step of order five per coupling step, or
-    `ida`, variable in step and order. control: None, sticks come with every step. rtol, stabilator, rotor_speed: as for `fly`.
+    `ida`, variable in step and order. control, actuators: what is between sticks and blades, as for `fly`; None: nothing. rtol,
+    stabilator, rotor_speed: as for `fly`.
 
     `snapshot()` is everything that what comes depends on; after `restore(snapshot)` the same bits follow, here, in a copy or in
     another process. IDA hides its memory (history, order, step, derivatives): with `ida` a snapshot, and a restoration too,
@@ -103,21 +87,22 @@ class Simulation(Stepping):
     After a `NumericalFailure` a simulation is at no definite moment: restore a snapshot to go on.
     """
 
+    @checked
     def __init__(
         self,
         start: Trim,
         inflow: str | InflowModel | None = None,
         integrator: str = "fixed",
-        control: None = None,
+        control: Any = None,
         *,
         rtol: float = RTOL,
         stabilator: str = "held",
         rotor_speed: RotorSpeed = CONSTANT,
+        actuators: Any = None,
         progress: Reported = None,
     ):
-        if control is not None:
-            raise InputError.of("control", control, "allowed: None, sticks come with every step")
-        self._prepare(start, flight_model(start, inflow, rotor_speed), integrator, rtol, stabilator)
+        made = augmentation(control, actuators)
+        self._prepare(start, flight_model(start, inflow, rotor_speed), integrator, rtol, stabilator, made)
         self.converge(heard(progress))
 
     @classmethod
@@ -129,24 +114,31 @@ class Simulation(Stepping):
         rtol: float,
         stabilator: str,
         rotor_speed: RotorSpeed = CONSTANT,
+        control: Augmentation | None = None,
     ) -> Simulation:
         """A simulation that has been checked; `converge` must follow."""
         sim = cls.__new__(cls)
-        sim._prepare(start, flight_model(start, inflow, rotor_speed), integrator, rtol, stabilator)
+        made = augmentation(control)
+        sim._prepare(start, flight_model(start, inflow, rotor_speed), integrator, rtol, stabilator, made)
         return sim
 
     def converge(self, progress: Progress | Silent) -> None:
         """Start the exchange; a marching wake goes through its convergence phase."""
         self.exchange, self.phase = begun(self.model, self.start, progress)
 
-    def _prepare(self, start: Trim, model: Model, integrator: str, rtol: float, stabilator: str) -> None:
+    def _prepare(
+        self, start: Trim, model: Model, integrator: str, rtol: float, stabilator: str, control: Augmentation
+    ) -> None:
         """Everything but the exchange."""
         if integrator not in INTEGRATORS:
             raise InputError.choice("integrator", integrator, INTEGRATORS)
         if stabilator not in ("held", "scheduled"):
             raise InputError.of("stabilator", stabilator, "allowed: held, scheduled")
+        rtol = number("rtol", rtol, *RTOLS)
         self.start = start
         self.integrator, self.rtol, self.stabilator = integrator, rtol, stabilator
+        self.control = control
+        self.chain = None if control.nothing else Chain(control, start)
         solver = INTEGRATORS[integrator](model, rtol, atol_scale=rtol / RTOL)
         self._begin(model, solver, start.state(0.0), self._asked(None))
         self._incidence = start.stabilator_incidence
@@ -159,7 +151,7 @@ class Simulation(Stepping):
         roll = np.arctan2(2 * (w * x + i * z), 1 - 2 * (x * x + i * i))
         pitch = np.arcsin(np.clip(2 * (w * i - z * x), -1, 1))
         yaw = np.arctan2(2 * (w * z + x * i), 1 - 2 * (i * i + z * z))
-        about_trim = (self._stick - self._asked(None)) / INCH
+        about_trim = (self._hands - self._asked(None)) / INCH
         stick = dict(zip(STICKS, about_trim.tolist(), strict=True))
         return State(self.t, y, y[:3], y[3:6], np.array([roll, pitch, yaw]), y[10:13], stick)
 
@@ -180,10 +172,42 @@ class Simulation(Stepping):
         n = 1 if dt is None else max(1, round(self.clock.steps(self._step, quantity(dt, "s", "dt"))))
         try:
             for _ in range(n):
-                self.follow(Ramp(self.t, self.clock.time(self._step + 1), self._stick, target))
+                self.follow(Ramp(self.t, self.clock.time(self._step + 1), self._hands, target))
         except (ArithmeticError, np.linalg.LinAlgError) as reason:
             raise NumericalFailure(f"simulation stopped at t = {self.t:.4f} s: {reason}") from reason
         return self.state
+
+    @property
+    def _hands(self) -> np.ndarray:
+        """Sticks [m from the stop] where the pilot has them."""
+        return self._stick if self.chain is None else self.chain.hands
+
+    def last(self, sticks: StickPath) -> Instant:
+        """Where a flight along `sticks` ends."""
+        return self.instant(sticks if self.chain is None else self.chain.rest(sticks, self.t), ends=True)
+
+    def _pieces(self, sticks: StickPath, t0: float, t1: float) -> list[tuple[float, float]]:
+        return sticks.pieces(t0, t1) if self.chain is None else self.chain.pieces(sticks, t0, t1)
+
+    def _commanded(self, sticks: StickPath, piece: tuple[float, float], y: np.ndarray) -> StickPath:
+        if self.chain is None:
+            return sticks
+        t = piece[0]
+        return self.chain.path(sticks, piece, t == self.t, lambda: self._sensors(t, y))
+
+    def _sensors(self, t: float, y: np.ndarray) -> Sensors:
+        """What controllers may know at the states `y`, with the blades where they have been put so far."""
+        model = self.model
+
+        def measure() -> tuple[np.ndarray, dict[str, Any]]:
+            held, mean = self.exchange.held(self._step)
+            inputs = _core.Inputs(self.chain.reached, np.zeros(4), t, held, mean, self._incidence)
+            rate = model.core.consistent_rate(t, y, inputs)
+            out = model.core.outputs(t, y, rate, inputs)
+            return rate, out | {"torque": -model.hand * out["hub_moment"][2]}
+
+        speed = model.omega * float(shares(model.rotor_speed, np.asarray(t)))
+        return Sensors(y, self.start.condition.altitude, speed, measure)
 
     def _asked(self, sticks: Mapping[str, float] | Sequence[float] | None) -> np.ndarray:
         """Sticks [m from the stop] for what was asked [inches about trim]."""
@@ -216,6 +240,7 @@ class Simulation(Stepping):
             "y": np.asarray(self._y, "<f8").tobytes(),
             "integrator": self.solver.memory(),
             "exchange": bytes(self.exchange.core.to_bytes()),
+            **({} if self.chain is None else {"control": self.chain.memory()}),
         }
         return Snapshot(dict(self.configuration), scalars, parts)
 
@@ -232,6 +257,8 @@ class Simulation(Stepping):
         self.exchange, self._y, self._step = exchange, y, snapshot.step
         self._stick = np.array(snapshot.scalars["stick"])
         self._incidence = snapshot.scalars["stabilator"]
+        if self.chain is not None:
+            self.chain.recall(snapshot.parts["control"])
 
     @cached_property
     def configuration(self) -> dict[str, str]:
@@ -247,12 +274,13 @@ class Simulation(Stepping):
             "integrator": f"{self.integrator}, rtol {self.rtol!r}",
             "stabilator": self.stabilator,
             "rotor speed": str(model.rotor_speed or CONSTANT),
+            "control": json.dumps(self.control.described(), sort_keys=True),
             "trim": hashlib.sha256(np.asarray(start.x, "<f8").tobytes()).hexdigest()[:16],
         }
 
     def __reduce__(self) -> tuple[Any, ...]:
         """By value: the trim, the configuration and a snapshot."""
-        own = (self.start, self.model, self.integrator, self.rtol, self.stabilator)
+        own = (self.start, self.model, self.integrator, self.rtol, self.stabilator, self.control)
         return _revived, (own, self.phase, self.seconds, self.snapshot())
 
     def _rows(self) -> list[tuple[str, str]]:
@@ -283,7 +311,10 @@ class Simulation(Stepping):
 
 
 def _revived(
-    own: tuple[Trim, Model, str, float, str], phase: ConvergencePhase, seconds: dict[str, float], snapshot: Snapshot
+    own: tuple[Trim, Model, str, float, str, Augmentation],
+    phase: ConvergencePhase,
+    seconds: dict[str, float],
+    snapshot: Snapshot,
 ) -> Simulation:
     """A simulation from its parts, without its convergence phase."""
     sim = Simulation.__new__(Simulation)

@@ -8,6 +8,7 @@ import json
 from dataclasses import dataclass, field
 from typing import Any
 
+from .arguments import checked
 from .errors import InputError
 
 MAGIC = b"WKFL-SNAPSHOT\n"
@@ -50,6 +51,7 @@ class Snapshot:
         return block + hashlib.sha256(block).digest()
 
     @classmethod
+    @checked
     def from_bytes(cls, block: bytes) -> Snapshot:
         """From `to_bytes`; a block that was cut or changed is refused."""
         at = len(MAGIC) + 8

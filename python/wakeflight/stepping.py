@@ -13,24 +13,12 @@ from . import _core
 from .exchange import Exchange
 from .integrators import Integrator
 from .model import CompiledRotor
-
-
-class StickPath(Protocol):
-    """Sticks over a coupling step, linear in time between corners."""
-
-    def at(self, t: float) -> np.ndarray:
-        """Positions (4,) [m from the stop] at time `t` [s]."""
-
-    def rate(self, t: float) -> np.ndarray:
-        """Rates (4,) [m/s] at time `t` [s]."""
-
-    def pieces(self, t0: float, t1: float) -> list[tuple[float, float]]:
-        """The interval t0..t1 cut at the corners."""
+from .sticks import StickPath
 
 
 @dataclass(frozen=True)
 class Instant:
-    """Where a coupling step begins: state, its consistent rate, and the inputs that begin there."""
+    """Where a coupling step begins: state, its consistent rate, and the inputs that begin there; sticks that reach the blades."""
 
     step: int
     t: float
@@ -95,7 +83,9 @@ class Stepping:
     def follow(self, sticks: StickPath, observer: Observer | None = None) -> None:
         """Fly one coupling step along `sticks`; `observer` sees where it begins."""
         t, end = self.t, self.clock.time(self._step + 1)
-        begin = self.instant(sticks)
+        pieces = self.clock.cut(self._pieces(sticks, t, end))
+        path = self._commanded(sticks, pieces[0], self._y)
+        begin = self.instant(path)
         if observer is not None:
             observer(begin)
 
@@ -103,18 +93,27 @@ class Stepping:
         if not self.solver.begun:
             self.solver.start(t, self._y, begin.y_dot)
         inputs = begin.inputs
-        for t0, t1 in self.clock.cut(sticks.pieces(t, end)):
+        for t0, t1 in pieces:
             if t0 > t:
-                inputs = coupling_inputs(sticks, t0, *self.exchange.held(self._step), self._incidence)
+                path = self._commanded(sticks, (t0, t1), self.solver.state)
+                inputs = coupling_inputs(path, t0, *self.exchange.held(self._step), self._incidence)
             self.solver.advance_to(t1, inputs)
         self._y = self.solver.state
         self.seconds["dynamics"] += time.perf_counter() - clock
 
         self._step += 1
-        self._stick = sticks.at(end)
+        self._stick = path.at(end)
         clock = time.perf_counter()
-        self.exchange.reach(self._step, self._y, self._stick, sticks.rate(end))
+        self.exchange.reach(self._step, self._y, self._stick, path.rate(end))
         self.seconds["wake"] += time.perf_counter() - clock
+
+    def _pieces(self, sticks: StickPath, t0: float, t1: float) -> list[tuple[float, float]]:
+        """The coupling step t0..t1 cut where what reaches the blades has a corner."""
+        return sticks.pieces(t0, t1)
+
+    def _commanded(self, sticks: StickPath, piece: tuple[float, float], y: np.ndarray) -> StickPath:
+        """Sticks that reach the blades over a piece that begins at the states `y`: those of the hands if nothing is between."""
+        return sticks
 
     def instant(self, sticks: StickPath, ends: bool = False) -> Instant:
         """Where the next coupling step along `sticks` begins; `ends`: no step follows, the servo rests."""

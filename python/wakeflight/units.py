@@ -9,10 +9,10 @@ from __future__ import annotations
 
 import math
 import re
-from numbers import Integral, Real
 from typing import Any
 
-from .errors import InputError
+from .arguments import is_number, is_whole
+from .errors import InputError, shortened
 
 STANDARD_GRAVITY = 9.80665
 """Standard acceleration of gravity [m/s2]: a weight is this times the mass."""
@@ -22,6 +22,8 @@ _POUND = 0.45359237
 _FOOT = 0.3048
 _DIMENSIONS = {
     "1": (1.0, (0, 0, 0, 0)),
+    "%": (0.01, (0, 0, 0, 0)),
+    "Hz": (1.0, (0, 0, -1, 0)),
     "m": (1.0, (0, 1, 0, 0)),
     "mm": (1e-3, (0, 1, 0, 0)),
     "km": (1e3, (0, 1, 0, 0)),
@@ -50,14 +52,29 @@ _DIMENSIONS = {
     "hp": (550.0 * _FOOT * _POUND * STANDARD_GRAVITY, (1, 2, -3, 0)),
 }
 
+LONGEST = 80
+"""Longest text of a quantity or a unit: the longest in use, `slug ft2/s`-like products, have twenty characters."""
+
+HIGHEST_POWER = 9
+"""Highest power of a unit that is read: moments of area, the highest in mechanics, have four."""
+
 # thousands stand in groups of three behind one kind of separator; a comma before any other number of digits is no thousand
-_THOUSANDS = r"\d{1,3}(?:(?P<apart>[ ,'\u2019_])\d{3})(?:(?P=apart)\d{3})*(?:\.\d*)?"
+_THOUSANDS = r"[0-9]{1,3}(?:(?P<apart>[ ,'\u2019_])[0-9]{3})(?:(?P=apart)[0-9]{3})*(?:\.[0-9]*)?"
 _TEXT = re.compile(
-    rf"\s*(?P<number>[+-]?(?:{_THOUSANDS}|\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)(?![\d,])\s*(?P<unit>.*?)\s*$"
+    rf"(?P<number>[+-]?(?:{_THOUSANDS}|[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)(?![0-9,])\s*(?P<unit>.*)"
 )
-_APART = re.compile(r"(?<=\d)[ ,'\u2019_](?=\d)")
+_APART = re.compile(r"(?<=[0-9])[ ,'\u2019_](?=[0-9])")
 _TYPED = str.maketrans({"\u2212": "-", "\u2013": "-", "\u00a0": " ", "\u202f": " ", "\u2009": " "})
-_UNIT = re.compile(r"([*/ ]?)\s*([A-Za-z°]+|1)(?:\^|\*\*)?(-?\d+)?\s*")
+_UNIT = re.compile(r"([*/ ]?)\s*([A-Za-z°]+|%|1)(?:\^|\*\*)?(-?[0-9]+)?\s*")
+
+# what is handed to pint: names, `*`, `/`, blanks, one level of brackets, and powers that are one small number each
+_BETWEEN = r"(?:\s*+[*/·]\s*+|\s++)"
+_FACTOR = rf"(?:[^\W\d]\w*+|[%°µΩ]\w*+|1)(?:\s*+(?:\^|\*\*)\s*+-?[0-{HIGHEST_POWER}](?![0-9.]))?"
+_TERM = rf"(?:{_FACTOR}|\(\s*+{_FACTOR}(?:{_BETWEEN}{_FACTOR})*+\s*+\))"
+_FOREIGN = re.compile(rf"{_TERM}(?:{_BETWEEN}{_TERM})*+")
+# a unit per quotient, "in/(rad/s)", or per product, "in/(ft s)"
+_PER_QUOTIENT = re.compile(r"/\s*\(([^()/]+)/([^()/]+)\)")
+_PER_PRODUCT = re.compile(r"/\s*\(([^()/ *]+)[ *]([^()/ *]+)\)")
 
 EXAMPLES = {
     "m/s": "'80 kt'",
@@ -74,12 +91,17 @@ def factor(unit: str) -> tuple[float, tuple[int, ...]] | None:
     """SI factor of a unit such as `slug ft2`, and its powers of kg, m, s, rad; None if not known here."""
     total, powers, position = 1.0, [0, 0, 0, 0], 0
     text = unit.strip() or "1"
+    if len(text) > LONGEST:
+        return None
+    text = _PER_PRODUCT.sub(r"/\1/\2", _PER_QUOTIENT.sub(r"/\1*\2", text))
     while position < len(text):
         match = _UNIT.match(text, position)
         if match is None or match.group(2) not in _DIMENSIONS:
             return None
         scale, dimension = _DIMENSIONS[match.group(2)]
         power = int(match.group(3) or 1) * (-1 if match.group(1) == "/" else 1)
+        if abs(power) > HIGHEST_POWER:
+            return None
         total *= scale**power
         powers = [have + power * each for have, each in zip(powers, dimension, strict=True)]
         position = match.end()
@@ -93,6 +115,8 @@ def convert(value: float, unit: str, si_unit: str) -> float:
         if known[1] != wanted[1]:
             raise ValueError(f"unit '{unit}' is not a unit of {si_unit}")
         return value * known[0] / wanted[0]
+    if len(unit) > LONGEST or not _FOREIGN.fullmatch(unit.strip()):
+        raise ValueError(f"unit '{shortened(unit, LONGEST)}' is no product of units with powers up to {HIGHEST_POWER}")
     try:
         return float(_registry().Quantity(value, unit).to(si_unit.replace(" ", "*")).magnitude)
     except Exception as reason:  # pint raises many kinds, tokenizer errors among them
@@ -103,20 +127,14 @@ def number(field: str, value: Any, low: float = -math.inf, high: float = math.in
     """`value` as a float if it is a finite number within low..high, without a unit; an InputError of `field` otherwise."""
     ranged = math.isfinite(low) and math.isfinite(high)
     allowed = f"must be a number between {low:g} and {high:g}" if ranged else "must be a finite number"
-    if isinstance(value, bool) or not isinstance(value, Real):
+    if not is_number(value) or not low <= value <= high:
         raise InputError.of(field, value, allowed)
-    try:
-        found = float(value)
-    except OverflowError:
-        found = math.inf
-    if not (math.isfinite(found) and low <= found <= high):
-        raise InputError.of(field, value, allowed)
-    return found
+    return float(value)
 
 
 def whole(field: str, value: Any, low: int, high: int) -> int:
     """`value` if it is a whole number within low..high; an InputError of `field` otherwise."""
-    if isinstance(value, bool) or not isinstance(value, Integral) or not low <= value <= high:
+    if not is_whole(value) or not low <= value <= high:
         raise InputError.of(field, value, f"must be a whole number between {low} and {high}")
     return int(value)
 
@@ -134,7 +152,7 @@ def quantity(value: Any, si_unit: str, field: str) -> float:
         except Exception as reason:  # pint's DimensionalityError, without importing pint for it
             raise InputError.of(field, value, f"must have a unit of {si_unit}, for example {example}") from reason
     elif isinstance(value, str):
-        match = _TEXT.match(value.translate(_TYPED))
+        match = _TEXT.fullmatch(value.strip().translate(_TYPED)) if len(value) <= LONGEST else None
         if match is None or not match["unit"]:
             raise InputError.of(field, value, f"must be a number with a unit, for example {example}")
         try:

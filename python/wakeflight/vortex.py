@@ -7,7 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from wakeflight import _core
+from . import _core
+from .arguments import checked
+from .errors import InputError
 
 CORES = ("singular", "scully", "vatistas2", "rankine", "lamb_oseen", "rosenhead_moore")
 CORE_DISTANCES = ("line", "segment")
@@ -17,6 +19,7 @@ METHODS = ("direct", "tree", "auto")
 FARTHEST = 1e15
 
 
+@checked
 def induced_velocity(
     points: ArrayLike,
     filaments: Sequence[ArrayLike],
@@ -54,24 +57,24 @@ def induced_velocity(
     """
     points = _vectors("points", points)
     if isinstance(filaments, np.ndarray) and filaments.ndim != 3:
-        raise ValueError(
+        raise InputError(
             f"filaments: an array of shape {filaments.shape}; allowed is a sequence of (m, 3) arrays of nodes"
         )
     nodes = [_vectors(f"filaments[{i}]", filament) for i, filament in enumerate(filaments)]
     for i, filament in enumerate(nodes):
         if len(filament) < 2:
-            raise ValueError(f"filaments[{i}]: {len(filament)} nodes; allowed are 2 or more")
+            raise InputError(f"filaments[{i}]: {len(filament)} nodes; allowed are 2 or more")
     n_segments = sum(len(filament) - 1 for filament in nodes)
     circulation = _values("circulation", circulation, n_segments)
     core_radius = _values("core_radius", core_radius, n_segments)
     if np.any(core_radius < 0.0):
         i_segment = int(np.argmax(core_radius < 0.0))
-        raise ValueError(f"core_radius[{i_segment}] = {core_radius[i_segment]:g}: allowed are 0 and more")
+        raise InputError(f"core_radius[{i_segment}] = {core_radius[i_segment]:g}: allowed are 0 and more")
     _one_of("core", core, CORES)
     _one_of("core_distance", core_distance, CORE_DISTANCES)
     _one_of("method", method, METHODS)
-    if not (isinstance(tolerance, (int, float)) and 0.0 < tolerance < 1.0):
-        raise ValueError(f"tolerance = {tolerance!r}: allowed are numbers above 0 and below 1")
+    if not 0.0 < tolerance < 1.0:
+        raise InputError(f"tolerance = {tolerance!r}: allowed are numbers above 0 and below 1")
 
     n_nodes = np.array([len(filament) for filament in nodes], dtype=np.int64)
     all_nodes = np.concatenate(nodes) if nodes else np.empty((0, 3))
@@ -86,7 +89,7 @@ def _numbers(name: str, value: ArrayLike) -> NDArray[np.float64]:
         if array.dtype.kind not in "iuf":
             raise TypeError
     except (TypeError, ValueError):
-        raise ValueError(f"{name} = {value!r:.60}: allowed is an array of real numbers") from None
+        raise InputError(f"{name} = {value!r:.60}: allowed is an array of real numbers") from None
     return np.ascontiguousarray(array, dtype=np.float64)
 
 
@@ -95,13 +98,13 @@ def _check_size(name: str, array: NDArray[np.float64]) -> None:
     if bad.any():
         index = tuple(int(i) for i in np.argwhere(bad)[0])
         limit = f"allowed are finite numbers up to {FARTHEST:g} in magnitude"
-        raise ValueError(f"{name}{list(index)} = {array[index]:g}: {limit}")
+        raise InputError(f"{name}{list(index)} = {array[index]:g}: {limit}")
 
 
 def _vectors(name: str, value: ArrayLike) -> NDArray[np.float64]:
     array = _numbers(name, value)
     if array.ndim != 2 or array.shape[1] != 3:
-        raise ValueError(f"{name}: shape {array.shape}; allowed is (n, 3)")
+        raise InputError(f"{name}: shape {array.shape}; allowed is (n, 3)")
     _check_size(name, array)
     return array
 
@@ -109,11 +112,11 @@ def _vectors(name: str, value: ArrayLike) -> NDArray[np.float64]:
 def _values(name: str, value: ArrayLike, n_segments: int) -> NDArray[np.float64]:
     array = _numbers(name, value) if np.size(value) else np.empty(np.shape(value))
     if array.shape != (n_segments,):
-        raise ValueError(f"{name}: shape {array.shape}; allowed is ({n_segments},), one value a segment")
+        raise InputError(f"{name}: shape {array.shape}; allowed is ({n_segments},), one value a segment")
     _check_size(name, array)
     return array
 
 
 def _one_of(name: str, value: str, allowed: tuple[str, ...]) -> None:
     if value not in allowed:
-        raise ValueError(f"{name} = {value!r}: allowed are {', '.join(allowed)}")
+        raise InputError(f"{name} = {value!r}: allowed are {', '.join(allowed)}")

@@ -9,8 +9,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from . import _core
+from .arguments import checked
 from .errors import InputError
-from .units import quantity, whole
+from .units import number, quantity, whole
+
+LARGEST = 1e6
+"""Largest span, in the unit that chord and span have in common: squares of it stay numbers."""
 
 
 class Wing(NamedTuple):
@@ -28,6 +32,7 @@ class Wing(NamedTuple):
     """Lift coefficient of the wing, over its own area."""
 
 
+@checked
 def wing(
     span: float,
     chord: float | Callable[[np.ndarray], np.ndarray],
@@ -40,16 +45,22 @@ def wing(
     span, chord: in one unit of length; chord a number or a function of the place along the span, 0 in the middle.
     alpha: angle of attack, text with a unit. blade_model: `weissinger` or `lifting-line`. n: elements, in cosine spacing.
     """
-    if not span > 0.0 or not np.isfinite(span):
-        raise InputError.of("span", span, "must be a number above 0")
+    if not 0.0 < number("span", span) <= LARGEST:
+        raise InputError.of("span", span, f"must lie above 0 and at most {LARGEST:g}")
     n = whole("n", n, 2, 1000)
     if blade_model not in ("weissinger", "lifting-line"):
         raise InputError.of("blade_model", blade_model, "allowed: weissinger, lifting-line")
     edges = -0.5 * span * np.cos(np.pi * np.arange(n + 1) / n)
     stations = -0.5 * span * np.cos(np.pi * (np.arange(n) + 0.5) / n)
-    chords = np.asarray(chord(stations) if callable(chord) else np.full(n, float(chord)), dtype=float)
-    if chords.shape != (n,) or not np.all(np.isfinite(chords)) or not np.all(chords > 0.0):
-        raise InputError.of("chord", "a number or function", "must be finite and above 0 along the span")
+    try:
+        chords = np.asarray(chord(stations) if callable(chord) else np.full(n, float(chord)), dtype=float)
+    except (TypeError, ValueError) as reason:
+        raise InputError.of("chord", chord, f"must give a number at every place along the span: {reason}") from reason
+    if chords.shape != (n,) or not np.all((chords > 0.0) & (chords <= LARGEST)):
+        given = f"of shape {chords.shape}" if chords.shape != (n,) else f"{chords.min():g} to {chords.max():g}"
+        raise InputError.of(
+            "chord", given, f"must lie above 0 and at most {LARGEST:g} at each of {n} places along the span"
+        )
     gamma = _core.wing_circulation(
         edges, stations, chords, quantity(alpha, "rad", "alpha"), blade_model == "weissinger"
     )

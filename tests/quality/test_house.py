@@ -33,9 +33,11 @@ RUST_ORDER = (
 # each module may import itself and the rows before its own; a new module needs its place here
 PYTHON_ORDER = (
     {"_core"},
-    {"errors", "results", "regime", "views"},
-    {"units", "references", "vortex", "progress", "limits", "text"},
-    {"options"},
+    {"errors"},
+    {"atomic"},
+    {"arguments", "results", "regime", "views"},
+    {"units", "references", "vortex", "progress", "limits", "text", "sticks"},
+    {"options", "control"},
     {"presets"},
     {"condition", "inflow", "maneuvers", "wing", "monitors", "snapshot", "rotor_speed"},
     {"aircraft", "thinning"},

@@ -159,7 +159,7 @@ def test_an_unknown_name_lists_the_known_ones():
         ({"corners_of": (("pedal", (0.0, 0.0, 1.0, 0.2)),), "seconds": 2.0}, "pairs of numbers"),
         ({"corners_of": (("pedal", ((0.0, 0.0), (1.0, 10**400))),), "seconds": 2.0}, "finite"),
         ({"corners_of": None, "seconds": 2.0}, "corners_of"),
-        ({"corners_of": (("pedal", ((0.0, 0.0), (1.0, 0.2))),), "seconds": "2"}, "duration"),
+        ({"corners_of": (("pedal", ((0.0, 0.0), (1.0, 0.2))),), "seconds": "2"}, "seconds"),
         (
             {"corners_of": (("pedal", ((0.0, 0.0), (1.0, 0.2))),), "revolutions": 2, "rotor_speed": 1e-308},
             "rotor_speed",

@@ -2,7 +2,7 @@
 
 use numpy::ndarray::{ArrayD, Dimension};
 use numpy::{IntoPyArray, Ix1, Ix2, PyArrayDyn, PyReadonlyArray, PyReadwriteArray};
-use pyo3::exceptions::{PyArithmeticError, PyValueError};
+use pyo3::exceptions::PyArithmeticError;
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict};
 use serde::{Deserialize, Serialize};
@@ -17,9 +17,12 @@ pub type Room<'py, D = Ix1> = PyReadwriteArray<'py, f64, D>;
 /// Modal coordinates and their rates, a row for each blade instant.
 pub type Motion<'py> = (Table<'py>, Table<'py>);
 
+// what the core refuses is of the package's one family of errors
+pyo3::import_exception!(wakeflight.errors, InputError);
+
 /// Bad input, in Python.
 pub fn invalid(error: impl std::fmt::Display) -> PyErr {
-    PyValueError::new_err(error.to_string())
+    InputError::new_err(error.to_string())
 }
 
 /// Name of the instruction set in use; what was asked for must be on this machine.

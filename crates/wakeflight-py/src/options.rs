@@ -1,7 +1,7 @@
 //! Options of the inflow models: told to Python, and read from it.
 
+use crate::checks::invalid;
 use crate::wake::py_error;
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use serde::Deserialize;
 use wakeflight::inflow::AnnularOptions;
@@ -19,11 +19,11 @@ struct Given {
 }
 
 fn read(options_json: &str) -> PyResult<Given> {
-    serde_json::from_str(options_json).map_err(|e| PyValueError::new_err(format!("wake options: {e}")))
+    serde_json::from_str(options_json).map_err(|e| invalid(format!("wake options: {e}")))
 }
 
 fn demanded<T>(group: Option<T>, name: &str) -> PyResult<T> {
-    group.ok_or_else(|| PyValueError::new_err(format!("wake options: those of {name} are missing")))
+    group.ok_or_else(|| invalid(format!("wake options: those of {name} are missing")))
 }
 
 /// Options that both free wakes share, with their rotor.
@@ -40,7 +40,7 @@ pub(crate) fn relaxation_options(options_json: &str) -> PyResult<RelaxationOptio
 /// Options of marching, for a wake that starts from one of the shared options `of`.
 pub(crate) fn marching_options(options_json: &str, of: &WakeOptions) -> PyResult<MarchingOptions> {
     if wake_options(options_json)? != *of {
-        return Err(PyValueError::new_err("wake options: not those of the wake that the march starts from"));
+        return Err(invalid("wake options: not those of the wake that the march starts from"));
     }
     demanded(read(options_json)?.marching, "marching")
 }
@@ -54,7 +54,7 @@ pub fn option_descriptors() -> PyResult<String> {
         MarchingOptions::descriptors(),
         AnnularOptions::descriptors(),
     ];
-    serde_json::to_string(&groups.concat()).map_err(|e| PyValueError::new_err(e.to_string()))
+    serde_json::to_string(&groups.concat()).map_err(|e| invalid(e))
 }
 
 /// Refuses options that do not go together, and with a rotor those that do not go with it.

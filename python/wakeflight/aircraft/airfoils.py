@@ -1,12 +1,10 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Section tables from a C81 deck or from an analytic polar, in the form of the tables by Mach number."""
+"""Section tables from an analytic polar, and tables continued to all angles of attack, in the form of those by Mach number."""
 
 from __future__ import annotations
 
 import math
-from pathlib import Path
 
-from ..text import read_text
 from .tables import HIGHEST_MACH
 
 Grid = dict[str, list]
@@ -16,100 +14,97 @@ LINEAR_LIMIT = math.radians(30.0)
 """Angle of attack [rad] up to which an analytic polar holds; beyond, a flat plate takes over within 10 deg."""
 
 
-def read_c81(path: Path) -> tuple[dict[str, Grid], list[str]]:
-    """Lift, drag and moment tables of a C81 deck {cl, cd, cm}, and what is to be warned of.
-
-    First line: name (30 columns), then numbers of Mach columns and angles of cl, cd, cm, two digits each. Fields of
-    seven columns, nine values a line, angles in degrees. Lines before that one are passed over and told; a deck that counts
-    no moments has none. ValueError says what cannot be read.
-    """
-    try:
-        lines = read_text(path).splitlines()
-    except ValueError as reason:
-        raise ValueError(f"names the file {path}, which {reason}") from reason
-    header, counts = _header(path, lines)
-    notes = []
-    if any(line.strip() for line in lines[:header]):
-        notes.append(f"{path}: {header} lines stand before the C81 header in line {header + 1}; passed over")
-    reader = _Fields(path, lines, header + 1)
-    grids: dict[str, Grid] = {}
-    for name, n_mach, n_alpha in zip(("cl", "cd", "cm"), counts[0::2], counts[1::2], strict=True):
-        if (n_mach == 0) != (n_alpha == 0) or (n_mach == 0 and name != "cm"):
-            where = f"the file {path}, line {header + 1}"
-            raise ValueError(f"names {where}, which counts {n_mach} Mach numbers and {n_alpha} angles of {name}")
-        if n_mach == 0:
-            notes.append(f"{path}: the deck has no cm; taken as 0, sections carry no pitching moment")
-            grids[name] = {**grids["cl"], "values": [[0.0] * len(row) for row in grids["cl"]["values"]]}
-            continue
-        mach = reader.row(n_mach, lead=False)
-        rows = [reader.row(n_mach, lead=True) for _ in range(n_alpha)]
-        grids[name] = {
-            "x": [_to_pi(math.radians(row[0])) for row in rows],
-            "y": mach,
-            "values": [row[1:] for row in rows],
-        }
-    after = next((i for i in range(reader.at, len(lines)) if lines[i].strip()), None)
-    if after is not None:
-        notes.append(f"{path}: text after the tables, from line {after + 1} on; not used")
-    return grids, notes
-
-
-def _header(path: Path, lines: list[str]) -> tuple[int, list[int]]:
-    """Index of the first line of a deck, and its six counts; ValueError where no line has them."""
-    for at, line in enumerate(lines):
-        fields = [line[30 + 2 * i : 32 + 2 * i] for i in range(6)]
-        if all(field.strip().isdecimal() for field in fields):
-            return at, [int(field) for field in fields]
-    raise ValueError(f"names the file {path}, in which no line has six two-digit counts from column 31 on")
-
-
-class _Fields:
-    """Numbers of a deck, line by line in fields of seven columns."""
-
-    def __init__(self, path: Path, lines: list[str], at: int) -> None:
-        self.path, self.lines, self.at = path, lines, at
-
-    def row(self, n: int, lead: bool) -> list[float]:
-        """The next `n` numbers over as many lines as they need; `lead`: an angle stands before them."""
-        values: list[float] = []
-        first = True
-        while len(values) < n + lead:
-            if self.at >= len(self.lines):
-                raise ValueError(f"names the file {self.path}, which ends before its tables do")
-            line = self.lines[self.at].ljust(70)
-            fields = [line[7 * i : 7 * i + 7].strip() for i in range(10)]
-            wanted = fields if first and lead else fields[1:]
-            needed = n + lead - len(values)
-            if any(wanted[needed:]):
-                counted = f"line {self.at + 1} holds more numbers than the {n} that the first line of the deck counts"
-                raise ValueError(f"names the file {self.path}, whose {counted}")
-            try:
-                values += [float(field) for field in wanted[:needed]]
-            except ValueError as reason:
-                message = f"names the file {self.path}, whose line {self.at + 1} '{line.strip()[:40]}' is not numbers"
-                raise ValueError(message) from reason
-            first = False
-            self.at += 1
-        if not all(map(math.isfinite, values)):
-            raise ValueError(f"names the file {self.path}, which holds a number that is not finite")
-        return values
-
-
-def _to_pi(alpha: float) -> float:
+def to_pi(alpha: float) -> float:
     """180 degrees, rounded or not, is pi."""
     return math.copysign(math.pi, alpha) if abs(abs(alpha) - math.pi) < 1e-9 else alpha
 
 
 def checked(name: str, grid: Grid) -> Grid:
     """`grid` if its axes ascend and cover +-180 deg and Mach numbers from 0 to 2; ValueError otherwise."""
+    ascending(name, grid)
+    if not covers(grid):
+        told = f"cover {math.degrees(grid['x'][0]):g} to {math.degrees(grid['x'][-1]):g} deg"
+        raise ValueError(f"{name}: angles {told}, must cover -180 to 180 deg; {NAMED_WAYS}")
+    return grid
+
+
+def ascending(name: str, grid: Grid) -> Grid:
+    """`grid` if its axes ascend within a turn and Mach numbers from 0 to 2; ValueError otherwise."""
     for axis, nodes in (("angle of attack", grid["x"]), ("Mach", grid["y"])):
         if any(after <= before for before, after in zip(nodes, nodes[1:], strict=False)):
             raise ValueError(f"{name}: {axis} must ascend strictly")
-    if grid["x"][0] > -math.pi + 1e-9 or grid["x"][-1] < math.pi - 1e-9:
-        raise ValueError(f"{name}: angles must cover -180 to 180 deg")
+    if grid["x"][0] < -math.pi - 1e-9 or grid["x"][-1] > math.pi + 1e-9:
+        raise ValueError(f"{name}: angles must lie between -180 and 180 deg")
     if grid["y"][0] < 0.0 or grid["y"][-1] > HIGHEST_MACH:
         raise ValueError(f"{name}: Mach numbers must lie between 0 and {HIGHEST_MACH:g}")
     return grid
+
+
+def covers(grid: Grid) -> bool:
+    """Whether the angles of a table go all the way round."""
+    return grid["x"][0] <= -math.pi + 1e-9 and grid["x"][-1] >= math.pi - 1e-9
+
+
+def extended(grids: dict[str, Grid], way: str) -> tuple[dict[str, Grid], list[str]]:
+    """Tables {cl, cd, cm} continued to +-180 deg in the `way` a file names, and what is to be told of it; ValueError: not so.
+
+    `mirror`: angles from 0 on are those of a symmetric section, cl and cm odd, cd even. `flat-plate`: beyond the table's ends,
+    after 10 deg of transition, cl = 2 sin cos, cd = 2 sin^2 + the table's least, cm = -sin/2 (the force at mid-chord).
+    """
+    found, notes = {}, []
+    for name, grid in grids.items():
+        ends = f"{math.degrees(grid['x'][0]):g} to {math.degrees(grid['x'][-1]):g} deg"
+        if covers(grid):
+            found[name] = grid
+            continue
+        found[name] = EXTENSIONS[way](name, grid)
+        notes.append(f"{name} has angles from {ends}; continued to -180 and 180 deg by {way}, as the file says")
+    return found, notes
+
+
+def _mirrored(name: str, grid: Grid) -> Grid:
+    """A table from zero on, of a symmetric section."""
+    if abs(grid["x"][0]) > 1e-9:
+        first = f"{math.degrees(grid['x'][0]):g} deg"
+        raise ValueError(f"{name}: extend = mirror needs angles from 0 on; the first is {first}")
+    sign = 1.0 if name == "cd" else -1.0
+    if sign < 0.0 and any(grid["values"][0]):
+        raise ValueError(f"{name}: extend = mirror needs a section without {name} at 0 deg: it is symmetric")
+    alpha = [-each for each in grid["x"][:0:-1]]
+    values = [[sign * each for each in row] for row in grid["values"][:0:-1]]
+    return {**grid, "x": [*alpha, *grid["x"]], "values": [*values, *grid["values"]]}
+
+
+def _on_a_plate(name: str, grid: Grid) -> Grid:
+    """A table whose ends pass into a flat plate."""
+    first, last, least = grid["x"][0], grid["x"][-1], [min(column) for column in zip(*grid["values"], strict=True)]
+    if not first <= 0.0 <= last:
+        raise ValueError(f"{name}: extend = flat-plate needs a table about 0 deg")
+
+    def plate(angle: float) -> list[float]:
+        s, c = math.sin(angle), math.cos(angle)
+        return {
+            "cl": [2.0 * s * c] * len(least),
+            "cd": [2.0 * s * s + each for each in least],
+            "cm": [-0.5 * s] * len(least),
+        }[name]
+
+    steps = [to_pi(math.radians(degrees)) for degrees in range(-180, 181, 5)]
+    below = [angle for angle in steps if angle <= first - TRANSITION]
+    above = [angle for angle in steps if angle >= last + TRANSITION]
+    # where less than the transition is left to half a turn, the plate is met there
+    below, above = below or [-math.pi] * (first > -math.pi), above or [math.pi] * (last < math.pi)
+    values = [*map(plate, below), *grid["values"], *map(plate, above)]
+    return {**grid, "x": [*below, *grid["x"], *above], "values": values}
+
+
+TRANSITION = math.radians(10.0)
+"""Angle [rad] in which a table passes into a flat plate."""
+
+EXTENSIONS = {"flat-plate": _on_a_plate, "mirror": _mirrored}
+"""Ways to continue tables that do not go all the way round."""
+
+NAMED_WAYS = 'extend = "flat-plate" or "mirror" in the section\'s group continues them'
 
 
 def analytic_polar(
@@ -122,7 +117,7 @@ def analytic_polar(
     blended between. In reverse flow it is the same polar with the edges changed about.
     """
     degrees = sorted({*(-180 + 2 * i for i in range(181)), *(x / 2 for x in range(-80, 81))})
-    alpha = [_to_pi(math.radians(d)) for d in degrees]
+    alpha = [to_pi(math.radians(d)) for d in degrees]
     mach = [0.05 * i for i in range(21)] if compressible else [0.0, 1.0]
 
     def factor(m: float) -> float:

@@ -4,40 +4,43 @@
 from __future__ import annotations
 
 from difflib import get_close_matches
-from importlib import resources
 from pathlib import Path
 from typing import Any, get_args
 
 from pydantic import BaseModel, ValidationError
 
+from ..arguments import checked
 from ..errors import InputError, one_line
 from ..references import known_keys
-from ..text import read_toml
+from ..text import is_file, read_toml
 from .model import Aircraft
 from .schema import AircraftFile
+from .shipped import SHIPPED, folder_of
 from .versions import Written, groups_of
 
-SHIPPED = ("uh60a", "bo105")
-"""Names of the aircraft that come with the package."""
 
-
-def load_aircraft(name_or_path: str | Path = "uh60a", loading: str | None = None) -> Aircraft:
+@checked
+def load_aircraft(
+    name_or_path: str | Path = "uh60a", loading: str | None = None, allow_outside: bool = False
+) -> Aircraft:
     """Aircraft from its file, checked: type, unit, range, missing and unknown keys, coverage of every table.
 
     name_or_path: a shipped name (`uh60a`, `bo105`) or the path of a TOML file.
     loading: a named mass and centre of gravity of the file; None is the file's `[loading]`.
+    allow_outside: whether tables may lie elsewhere than beside the file or below it.
     Raises InputError, one line naming file, key, value and what is allowed.
     """
     path = find(name_or_path)
-    return Aircraft(validated(path, groups_of(path, parsed(path)), AircraftFile), path, loading)
+    spec = validated(path, groups_of(path, parsed(path)), AircraftFile, allow_outside)
+    return Aircraft(spec, path, loading)
 
 
 def find(name_or_path: str | Path) -> Path:
     """Path of a shipped aircraft by its name, or of a file; InputError where there is none."""
     if str(name_or_path) in SHIPPED:
-        return Path(str(resources.files(__package__))) / str(name_or_path) / f"{name_or_path}.toml"
+        return folder_of(str(name_or_path)) / f"{name_or_path}.toml"
     path = Path(name_or_path)
-    if not path.is_file():
+    if not is_file(path):
         raise InputError.choice(
             "aircraft",
             str(name_or_path),
@@ -55,11 +58,19 @@ def parsed(path: Path) -> dict[str, Any]:
         raise InputError(one_line(f"{path}: {reason}")) from reason
 
 
-def validated(path: Path, written: Written, schema: type[BaseModel]) -> Any:
-    """What is `written` in the file `path` as `schema`, its citations known; InputError names the first thing wrong."""
+def validated(path: Path, written: Written, schema: type[BaseModel], allow_outside: bool = False) -> Any:
+    """What is `written` in the file `path` as `schema`, its citations known; InputError names the first thing wrong.
+
+    allow_outside: whether tables may lie in other folders.
+    """
     data = written.data
     sources = data.get("sources")
-    context = {"file": path, "directory": path.parent, "sources": set(sources) if isinstance(sources, dict) else set()}
+    context = {
+        "file": path,
+        "directory": path.parent,
+        "allow_outside": allow_outside,
+        "sources": set(sources) if isinstance(sources, dict) else set(),
+    }
     try:
         spec = schema.model_validate(data, context=context)
     except ValidationError as reason:

@@ -257,6 +257,12 @@ class Aircraft:
         }
 
     @property
+    def pitch_bias_actuator(self) -> dict[str, float] | None:
+        """Law of the pitch-bias actuator, SI and shares of the longitudinal travel, by the names of the file; None without."""
+        law = self._spec.rigging.pitch_bias_actuator
+        return None if law is None else {name: float(value) for name, value in law}
+
+    @property
     def limits(self) -> Limits:
         """What the file states of the aircraft's limits."""
         stated = self._spec.limits

@@ -10,6 +10,7 @@ from typing import Annotated, Any
 
 from pydantic import BeforeValidator, ValidationInfo
 
+from ..errors import one_line
 from ..units import STANDARD_GRAVITY, convert, shown
 
 CONFIDENCES = ("A", "B", "C", "A/B", "A/C", "B/C", "A/B/C")
@@ -88,7 +89,7 @@ def provenance_of(entry: Any, info: ValidationInfo, keys: set[str], allowed: str
 
 def _real(value: Any) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float):
-        raise ValueError(f"has the value {value!r}, which is not a number")
+        raise ValueError(f"has the value {one_line(str(value)[:60])}, which is not a number")
     try:
         number = float(value)
     except OverflowError:

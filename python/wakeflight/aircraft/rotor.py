@@ -12,14 +12,16 @@ from typing import Any
 
 import numpy as np
 
+from ..arguments import checked
 from ..errors import InputError
 from ..units import STANDARD_GRAVITY, quantity
 from .blade_data import blade_data
 from .core_data import lag_damper_data as damper
-from .load import SHIPPED, find, load_aircraft, parsed, validated
+from .load import find, load_aircraft, parsed, validated
 from .model import HINGE_MODES, Aircraft, Settings, checked_discretisation
 from .rotor_checks import check_rotor, unused_on_a_stand
 from .rotor_file import UNSTATED, RotorFile, written_out
+from .shipped import SHIPPED
 from .span import check_span, span_data, tip_section
 from .versions import groups_of
 
@@ -107,21 +109,21 @@ class Rotor:
         return replace(self, discretisation=self.discretisation._replace(**given))
 
 
-def load_rotor(rotor: str | Path | Rotor | Aircraft = "uh60a") -> Rotor:
+@checked
+def load_rotor(rotor: str | Path | Rotor | Aircraft = "uh60a", allow_outside: bool = False) -> Rotor:
     """Rotor from a rotor file, or that of an aircraft (its name, its file, or the loaded aircraft).
 
+    allow_outside: whether tables may lie elsewhere than beside the file or below it.
     Raises InputError, one line naming file, key, value and what is allowed.
     """
     if isinstance(rotor, Rotor):
         return rotor
     if isinstance(rotor, Aircraft):
         return _of_aircraft(rotor)
-    if not isinstance(rotor, str | Path):
-        raise InputError.of("aircraft", rotor, "must be an aircraft, a rotor, a shipped name or the path of a file")
     path = find(rotor)
     if str(rotor) in SHIPPED or "rigging" in parsed(path):
-        return _of_aircraft(load_aircraft(rotor))
-    return _of_file(path)
+        return _of_aircraft(load_aircraft(rotor, allow_outside=allow_outside))
+    return _of_file(path, allow_outside)
 
 
 def _of_aircraft(aircraft: Aircraft) -> Rotor:
@@ -135,14 +137,14 @@ def _of_aircraft(aircraft: Aircraft) -> Rotor:
     return Rotor(aircraft.name, aircraft.path, data, settings, references, True, warnings, weight)
 
 
-def _of_file(path: Path) -> Rotor:
+def _of_file(path: Path, allow_outside: bool) -> Rotor:
     written = groups_of(path, parsed(path))
     data = dict(written.data)
     if isinstance(data.get("rotor"), dict):
         data["rotor"] = written_out(data["rotor"])
     if isinstance(data.get("sources", {}), dict):
         data["sources"] = {**data.get("sources", {}), "unstated": UNSTATED.model_dump()}
-    spec: RotorFile = validated(path, written._replace(data=data), RotorFile)
+    spec: RotorFile = validated(path, written._replace(data=data), RotorFile, allow_outside)
     group = spec.rotor
     core = {
         "n_blades": int(group.n_blades),

@@ -108,6 +108,22 @@ class Rotor(Group):
     lag_damper: LagDamper | None = None
 
 
+class PitchBiasActuator(Group):
+    """Actuator in series with the longitudinal stick: shares of its travel, aft positive, for pitch, pitch rate and airspeed."""
+
+    attitude_gain: scalar("1/rad", low=-100.0, high=100.0)
+    attitude_limit: scalar("rad", above=0.0, high=math.pi)
+    rate_gain: scalar("s/rad", low=-100.0, high=100.0)
+    rate_limit: scalar("rad/s", above=0.0, high=10.0)
+    airspeed_gain: scalar("s/m", low=-1.0, high=1.0)
+    airspeed_from: scalar("m/s", low=0.0, high=500.0)
+    airspeed_range: scalar("m/s", low=0.0, high=500.0)
+    bias: scalar("1", low=-1.0, high=1.0)
+    lag: scalar("s", low=0.0, high=10.0)
+    actuator_rate: scalar("1/s", above=0.0, high=100.0)
+    authority: scalar("1", above=0.0, high=1.0)
+
+
 class Rigging(Group):
     """Sticks to blade pitch: pitch = offset + matrix . (lateral, longitudinal, collective, pedal)."""
 
@@ -115,6 +131,7 @@ class Rigging(Group):
     matrix: vector("rad/m", 4, low=-100.0, high=100.0, rows=4)
     offset: vector("rad", 4, low=-math.pi, high=math.pi)
     full_travel_time: scalar("s", above=0.0, high=100.0)
+    pitch_bias_actuator: PitchBiasActuator | None = None
 
 
 class TailRotor(Group):

@@ -8,8 +8,10 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import InputError
+from ..text import is_file
 from ..units import number
-from .airfoils import checked, read_c81
+from .airfoils import checked
+from .c81 import read_c81
 from .model import Aircraft
 from .rotor import Rotor, load_rotor
 from .sections import check_sections
@@ -38,7 +40,7 @@ def section_at(airfoil: str | Path | Rotor | Aircraft, station: float | None) ->
 
 
 def _deck(path: Path) -> SectionAt:
-    if not path.is_file():
+    if not is_file(path):
         raise InputError.of("airfoil", str(path), "no such file; needed is a C81 deck, an aircraft or a rotor")
     try:
         grids, notes = read_c81(path)

@@ -10,20 +10,21 @@ are linear in the station and beyond which they are held, or an `extent` each, w
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Field, ValidationInfo, model_validator
 
 from ..errors import InputError
-from ..text import file_beside
-from .airfoils import Grid, analytic_polar, checked, read_c81
+from .airfoils import EXTENSIONS, NAMED_WAYS, Grid, analytic_polar, covers, extended
+from .c81 import read_c81
 from .fields import Angle, Group
 from .number import Provenance, numbers, provenance_of, scalar, vector
 from .sections import check_sections
-from .tables import Table, by_mach
+from .tables import Table, by_mach, named_file
 
 JOIN = 1e-6
 """Fraction of the radius by which extents of neighbouring sections may differ: rounding."""
@@ -45,10 +46,8 @@ def _deck(entry: Any, info: ValidationInfo) -> Deck:
     name = entry.get("table")
     if not isinstance(name, str) or not name:
         raise ValueError(f"must be {allowed}")
-    path = file_beside(Path((info.context or {}).get("directory", Path())), name)
+    path = named_file(name, info)
     grids, notes = read_c81(path)
-    for key, grid in grids.items():
-        checked(key, grid)
     published = Provenance(name, "table", provenance.sources, provenance.confidence, provenance.note)
     return Deck(path=path, grids=grids, provenance=published, notes=tuple(notes))
 
@@ -80,6 +79,7 @@ class Section(Group):
     c81: Annotated[Deck, BeforeValidator(_deck)] | None = None
     polar: Polar | None = None
     cd_increment: scalar("1", low=-0.1, high=0.1) | None = None
+    extend: Literal[tuple(EXTENSIONS)] | None = None
 
     @model_validator(mode="after")
     def _one_kind(self) -> Section:
@@ -88,6 +88,8 @@ class Section(Group):
             raise ValueError("needs one of: the tables cl and cd (and cm), a c81 deck, a polar")
         if tables and (self.cl is None or self.cd is None):
             raise ValueError("needs both tables, cl and cd")
+        if self.polar is not None and self.extend is not None:
+            raise ValueError("has extend, but a polar holds at all angles")
         return self
 
     @property
@@ -96,17 +98,37 @@ class Section(Group):
         return float(self.cd_increment or 0.0)
 
     def grids(self) -> dict[str, Grid]:
-        """Tables {cl, cd, cm} in SI."""
-        if self.c81 is not None:
-            return self.c81.grids
+        """Tables {cl, cd, cm} in SI, over all angles of attack; ValueError where they do not reach and the file names no way."""
         if self.polar is not None:
             return self.polar.grids()
+        grids = self._as_read
+        if self.extend is not None:
+            return extended(grids, self.extend)[0]
+        for name, grid in grids.items():
+            if not covers(grid):
+                ends = f"{math.degrees(grid['x'][0]):.6g} .. {math.degrees(grid['x'][-1]):.6g} deg"
+                raise self.error(
+                    "rotor.airfoil", name, ends, f"must cover -180 to 180 deg; {NAMED_WAYS}", Path(self.name)
+                )
+        return grids
+
+    @property
+    def _as_read(self) -> dict[str, Grid]:
+        """Tables as they stand in the file."""
+        if self.c81 is not None:
+            return self.c81.grids
         grids = {"cl": by_mach(self.cl), "cd": by_mach(self.cd)}
         if self.cm is not None:
             grids["cm"] = by_mach(self.cm)
         else:
             grids["cm"] = {**grids["cl"], "values": [[0.0] * len(row) for row in grids["cl"]["values"]]}
         return grids
+
+    @property
+    def notes(self) -> list[str]:
+        """What is to be told of how the tables were read."""
+        notes = [] if self.c81 is None else list(self.c81.notes)
+        return notes if self.extend is None else [*notes, *extended(self._as_read, self.extend)[1]]
 
     def error(self, key: str, name: str, value: object, allowed: str, path: Path) -> InputError:
         """Error about the table `name` of the section `key` of the file at `path`."""
@@ -199,7 +221,7 @@ def check_span(sections: Sequence[Section], data: dict[str, Any], path: Path) ->
         def refuse(name: str, value: object, allowed: str, key: str = key, section: Section = section) -> InputError:
             return section.error(key, name, value, allowed, path)
 
-        notes = [] if section.c81 is None else list(section.c81.notes)
+        notes = section.notes
         notes += check_sections(section.grids(), section.increment, refuse, polar=section.polar is not None)
         warnings += [f"{key}: {text}" for text in notes]
     return warnings

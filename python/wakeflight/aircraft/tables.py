@@ -11,10 +11,11 @@ from typing import Annotated, Any
 
 from pydantic import BeforeValidator, ValidationInfo
 
-from ..errors import InputError
-from ..text import file_beside, read_text
+from ..errors import InputError, shortened
+from ..text import file_beside, lines_of, plain_number, read_text
 from ..units import convert
 from .number import Provenance, provenance_of
+from .shipped import SHIPPED, folder_of
 
 SUFFIXES = {
     "deg": "deg",
@@ -134,7 +135,7 @@ class TableFile:
 def _is_of(header: str, base: str) -> bool:
     """Whether `header` is the column `base`, bare or with the suffix of a unit; `M...` is any Mach number."""
     if base == "M...":
-        return header.startswith("M") and _number(header[1:]) is not None
+        return header.startswith("M") and plain_number(header[1:]) is not None
     suffix = header.removeprefix(base + "_") if header.startswith(base + "_") else None
     return header == base or suffix == "R" or suffix in SUFFIXES
 
@@ -142,7 +143,7 @@ def _is_of(header: str, base: str) -> bool:
 def read_csv(path: Path, provenance: Provenance) -> TableFile:
     """Read a CSV file: `#` lines first, one header line, numbers, and columns of text where no cell is a number."""
     try:
-        lines = read_text(path).splitlines()
+        lines = lines_of(read_text(path))
     except ValueError as reason:
         raise ValueError(f"names the file {path}, which {reason}") from reason
     comment = [line[1:].strip() for line in lines if line.startswith("#")]
@@ -150,6 +151,8 @@ def read_csv(path: Path, provenance: Provenance) -> TableFile:
     if len(rows) < 2:
         raise ValueError(f"names the file {path}, which has no header line with numbers below it")
     header, body = rows[0], rows[1:]
+    if len(header) == 1 and ";" in header[0]:
+        raise ValueError(f"names the file {path}, whose columns are parted by semicolons; commas are needed")
     if len(set(header)) != len(header):
         raise ValueError(f"names the file {path}, in which a column stands twice")
     for row in body:
@@ -159,13 +162,14 @@ def read_csv(path: Path, provenance: Provenance) -> TableFile:
     texts: list[tuple[str, tuple[str, ...]]] = []
     for index, name in enumerate(header):
         cells = [row[index] for row in body]
-        numbers = [number for number in map(_number, cells) if number is not None]
+        numbers = [number for number in map(plain_number, cells) if number is not None]
         if not numbers and not any(map(_is_float, cells)):
             texts.append((name, tuple(cells)))
             continue
         if len(numbers) != len(cells):
-            wrong = next(cell for cell in cells if _number(cell) is None)
-            raise ValueError(f"names the file {path}, whose column {name} holds '{wrong}', not a finite number")
+            wrong = next(cell for cell in cells if plain_number(cell) is None)
+            told = f"whose column {shortened(name, 40)} holds '{shortened(wrong, 40)}', not a finite number"
+            raise ValueError(f"names the file {path}, {told}")
         columns[name] = tuple(numbers)
     return TableFile(path, columns, "\n".join(comment), provenance, tuple(texts))
 
@@ -184,14 +188,6 @@ def in_place(columns: Any, provenance: Provenance, info: ValidationInfo) -> Tabl
     path = (info.context or {}).get("file", Path(str(info.field_name)))
     numbers = {name: tuple(float(v) for v in values) for name, values in columns.items()}
     return TableFile(Path(f"{path}: {info.field_name}"), numbers, "", provenance)
-
-
-def _number(cell: str) -> float | None:
-    try:
-        number = float(cell)
-    except ValueError:
-        return None
-    return number if math.isfinite(number) else None
 
 
 def _is_float(cell: str) -> bool:
@@ -221,9 +217,20 @@ def _validate(entry: Any, info: ValidationInfo) -> TableFile:
     name = entry.get("table")
     if not isinstance(name, str) or not name:
         raise ValueError(f"must be {allowed}")
-    directory = (info.context or {}).get("directory", Path())
     published = Provenance(name, "table", provenance.sources, provenance.confidence, provenance.note)
-    return read_csv(file_beside(Path(directory), name), published)
+    return read_csv(named_file(name, info), published)
+
+
+def named_file(name: str, info: ValidationInfo) -> Path:
+    """Path of a file named in the one that is read: beside it or below, elsewhere where the user allows it.
+
+    A shipped aircraft, a colon and a name (`bo105:naca23012_cl.csv`) is a table of that aircraft.
+    """
+    aircraft, colon, of_shipped = name.partition(":")
+    if colon and aircraft in SHIPPED:
+        return file_beside(folder_of(aircraft), of_shipped)
+    context = info.context or {}
+    return file_beside(Path(context.get("directory", ".")), name, context.get("allow_outside", False))
 
 
 Table = Annotated[TableFile, BeforeValidator(_validate)]
@@ -268,12 +275,11 @@ def grid(table: TableFile, x: str, y: str, value: str, unit: str) -> dict[str, l
 
 
 def by_mach(table: TableFile) -> dict[str, list[Any]]:
-    """Section coefficient {x, y, values}: alpha [rad] over +-180 deg, by Mach number, held beyond its first and last."""
+    """Section coefficient {x, y, values}: alpha [rad], by Mach number, held beyond its first and last."""
     table.refuse_unused(("alpha", "M..."))
     alpha = table.column("alpha", "rad")
     ascending(table, "alpha", alpha)
-    covering(table, "alpha", alpha, -math.pi, math.pi, "-180 to 180 deg")
-    headers = [header for header in table.columns if header.startswith("M") and _number(header[1:]) is not None]
+    headers = [header for header in table.columns if header.startswith("M") and plain_number(header[1:]) is not None]
     mach = [float(header[1:]) for header in headers]
     if not mach:
         raise table.error("M...", "missing", "columns by Mach number are needed, such as M0.0, M0.3")

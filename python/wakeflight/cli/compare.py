@@ -7,7 +7,7 @@ from typing import Any
 
 from ..errors import NumericalFailure
 from . import outcome
-from .groups import Drawing, Integrator, ManeuverName, Revolutions, Run, Straight, Vehicle, Wake
+from .groups import Control, Drawing, Integrator, ManeuverName, Revolutions, Run, Straight, Vehicle, Wake
 from .request import check_flight, request
 
 
@@ -19,6 +19,7 @@ def compare(
     revolutions: Revolutions = None,
     wake: Wake,
     integrator: Integrator = "ida",
+    control: Control = None,
     drawing: Drawing,
     run: Run,
 ) -> None:
@@ -27,7 +28,10 @@ def compare(
     from ..progress import Progress
 
     check_flight(revolutions, integrator)
-    requests = [request(vehicle, given, name, wake, run, maneuver, lenient=True, drawing=drawing) for name in MODELS]
+    requests = [
+        request(vehicle, given, name, wake, run, maneuver, lenient=True, drawing=drawing, control=control)
+        for name in MODELS
+    ]
     print(requests[0].told(), flush=True)
     runs: dict[str, Any] = {}
     failures, lines = [], [f"{'inflow':<15}{'trim s':>9}{'flight s':>10}{'total s':>9}"]

@@ -4,7 +4,19 @@
 from __future__ import annotations
 
 from . import outcome
-from .groups import Blades, Condition, Drawing, InflowName, Integrator, ManeuverName, Revolutions, Run, Vehicle, Wake
+from .groups import (
+    Blades,
+    Condition,
+    Control,
+    Drawing,
+    InflowName,
+    Integrator,
+    ManeuverName,
+    Revolutions,
+    Run,
+    Vehicle,
+    Wake,
+)
 from .request import check_flight, request
 
 
@@ -18,12 +30,13 @@ def fly(
     wake: Wake,
     integrator: Integrator = "ida",
     blades: Blades = None,
+    control: Control = None,
     drawing: Drawing,
     run: Run,
 ) -> None:
     """Trim, fly a manoeuvre, write run.nc, figures and report.html."""
     check_flight(revolutions, integrator)
-    asked = request(vehicle, given, inflow, wake, run, maneuver, blades, drawing=drawing)
+    asked = request(vehicle, given, inflow, wake, run, maneuver, blades, drawing=drawing, control=control)
     print(asked.told(), flush=True)
     from ..progress import Progress
 

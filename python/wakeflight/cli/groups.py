@@ -30,8 +30,8 @@ ManeuverName = Annotated[
     str,
     typer.Argument(
         metavar="MANEUVER",
-        help="arrested-descent, roll-reversal, or a TOML file",
-        autocompletion=offered("arrested-descent", "roll-reversal"),
+        help="arrested-descent, roll-reversal, roll-reversal-augmented, or a TOML file",
+        autocompletion=offered("arrested-descent", "roll-reversal", "roll-reversal-augmented"),
     ),
 ]
 AircraftName = Annotated[
@@ -53,6 +53,15 @@ InflowName = Annotated[
 ]
 Revolutions = Annotated[float | None, told("--revolutions", "revolutions to fly", "the manoeuvre's own")]
 Integrator = Annotated[str, typer.Option("--integrator", help="ida, fixed", autocompletion=offered("ida", "fixed"))]
+Control = Annotated[
+    str | None,
+    typer.Option(
+        "--control",
+        metavar="FILE",
+        help="controllers and servos, a TOML file, or none",
+        show_default="the manoeuvre's own",
+    ),
+]
 Blades = Annotated[
     str | None,
     typer.Option(

@@ -52,6 +52,7 @@ def fly_once(request: Request, revolutions: float | None, integrator: str, out: 
         revolutions=revolutions,
         integrator=integrator,
         progress=progress,
+        control=request.control,
     )
     save_flight(flight, out, progress, request.drawing)
     if not flight.finished:
@@ -75,9 +76,9 @@ def save_flight(flight: Any, out: Path, progress: Progress, drawing: Drawing) ->
 
 def save_trim(start: Any, out: Path) -> None:
     """Write trim.nc."""
-    path = folder_made(out) / "trim.nc"
-    start.to_dataset().to_netcdf(path, engine="h5netcdf")
-    print(f"wrote {path}")
+    from ..results import save
+
+    print(f"wrote {save(start.to_dataset(), folder_made(out) / 'trim.nc')}")
 
 
 def _pace(data: Any) -> str:

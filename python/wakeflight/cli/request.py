@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError
+from ..text import slug
 from ..units import STANDARD_GRAVITY, shown
 from .groups import Drawing
 from .wake import typed_options
@@ -16,6 +17,7 @@ from .wake import typed_options
 if TYPE_CHECKING:
     from ..aircraft import Aircraft
     from ..condition import FlightCondition
+    from ..control import Augmentation
     from ..inflow import InflowModel
     from ..maneuvers import Maneuver
     from .groups import Run, Straight, Vehicle, Wake
@@ -32,6 +34,7 @@ class Request:
     drawing: Drawing
     maneuver: Maneuver | None = None
     typed: tuple[str, ...] = ()
+    control: Augmentation | None = None
 
     def told(self) -> str:
         """The condition that is flown, what was given before what the aircraft's file gives, in the units of pilots."""
@@ -64,6 +67,7 @@ def request(
     blades: str | None = None,
     lenient: bool = False,
     drawing: Drawing | None = None,
+    control: str | None = None,
 ) -> Request:
     """Everything that was typed, read and checked; nothing is started.
 
@@ -71,12 +75,16 @@ def request(
     """
     from ..aircraft import load_aircraft
     from ..condition import condition_for
+    from ..control import Augmentation, load_control
     from ..maneuvers import load_maneuver
     from ..model import flight_regime
 
     drawing = check_drawing(drawing or Drawing())
     set_threads(run.threads)
     flown = load_maneuver(maneuver) if maneuver is not None else None
+    made = None
+    if control is not None:
+        made = Augmentation() if control == "none" else load_control(control)
     model = inflow_from(inflow, wake, lenient=lenient)
     if blades not in (None, "rigid", "flexible"):
         raise InputError.choice("--blades", blades, ("rigid", "flexible"))
@@ -91,8 +99,10 @@ def request(
     if flown is not None:
         flown = flown.for_aircraft(loaded.stick_travel_in, float(loaded.rotor.omega))
         flown.check_span(loaded.stick_travel_in)
-    folder = writable(run.out if run.out is not None else Path("runs") / (flown.name if flown is not None else "run"))
-    return Request(loaded, complete, model, folder, drawing, flown, tuple(given.given()))
+    folder = writable(
+        run.out if run.out is not None else Path("runs") / slug(flown.name if flown is not None else "run")
+    )
+    return Request(loaded, complete, model, folder, drawing, flown, tuple(given.given()), made)
 
 
 def check_drawing(drawing: Drawing) -> Drawing:

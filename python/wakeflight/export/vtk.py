@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..atomic import write_text
 from ..results import frames
 
 if TYPE_CHECKING:
@@ -24,11 +25,10 @@ def write(run: xr.Dataset, out_dir: str | Path, name: str = "wake") -> Path:
     if "wake" not in run:
         raise ValueError("the run has no wake to export")
     out_dir = Path(out_dir)
-    out_dir.mkdir(parents=True, exist_ok=True)
     entries = []
     for k, time in enumerate(snapshot_times(run)):
         file = f"{name}-{k:03d}.vtp"
-        (out_dir / file).write_text(poly_data(*_vortices(run, k)), encoding="ascii")
+        write_text(out_dir / file, poly_data(*_vortices(run, k)), encoding="ascii")
         entries.append((time, 0, file))
     return _series(out_dir / f"{name}.pvd", entries)
 
@@ -47,13 +47,12 @@ def write_all(run: xr.Dataset, out_dir: str | Path) -> Path:
     if not flown:
         return write(run, out_dir)
     out_dir = Path(out_dir)
-    out_dir.mkdir(parents=True, exist_ok=True)
     times = snapshot_times(run) if "wake" in run else _quarter_turns(run)
     rows = [int(np.argmin(np.abs(run["time"].values - time))) for time in times]
     turned, hub = frames.hub_in_earth(run)
     path = np.stack([run["east"].values, run["north"].values, -run["down"].values], axis=1)
     seconds = {"time": run["time"].values[None]}
-    (out_dir / "path.vtp").write_text(poly_data(path[None], seconds), encoding="ascii")
+    write_text(out_dir / "path.vtp", poly_data(path[None], seconds), encoding="ascii")
     kept: dict[str, list[tuple[float, int, str]]] = {"hub": [], "earth": []}
     for k, (time, row) in enumerate(zip(times, rows, strict=True)):
         corners, faces = _blades(run, row)
@@ -62,10 +61,10 @@ def write_all(run: xr.Dataset, out_dir: str | Path) -> Path:
             if "wake" in run:
                 nodes, data = _vortices(run, k)
                 file = f"{frame}-wake-{k:03d}.vtp"
-                (out_dir / file).write_text(poly_data(placed(nodes), data), encoding="ascii")
+                write_text(out_dir / file, poly_data(placed(nodes), data), encoding="ascii")
                 entries.append((time, 0, file))
             file = f"{frame}-blades-{k:03d}.vtp"
-            (out_dir / file).write_text(poly_data(placed(corners), faces, kind="Polys"), encoding="ascii")
+            write_text(out_dir / file, poly_data(placed(corners), faces, kind="Polys"), encoding="ascii")
             entries.append((time, 1, file))
             if frame == "earth":
                 entries.append((time, 2, "path.vtp"))
@@ -134,7 +133,7 @@ def _series(path: Path, entries: list[tuple[float, int, str]]) -> Path:
     rows = "\n".join(
         f'    <DataSet timestep="{time:.9g}" part="{part}" file="{file}"/>' for time, part, file in entries
     )
-    path.write_text(_document("Collection", f"  <Collection>\n{rows}\n  </Collection>"))
+    write_text(path, _document("Collection", f"  <Collection>\n{rows}\n  </Collection>"))
     return path
 
 

@@ -7,6 +7,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from . import environment as environment  # isort: skip  # before whatever else draws
+
 from matplotlib.figure import Figure
 
 from . import (

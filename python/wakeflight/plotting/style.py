@@ -12,6 +12,8 @@ import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
 
+from ..atomic import written
+
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
@@ -29,7 +31,21 @@ GREY = "#777777"
 WIDTH = 7.2
 INCH = 0.0254
 
+# what belongs to the reader's session, not to the look of a figure
+SESSION = (
+    "backend",
+    "interactive",
+    "toolbar",
+    "webagg.",
+    "tk.",
+    "macosx.",
+    "date.epoch",
+    "timezone",
+    "savefig.directory",
+)
+
 RC: dict[Any, Any] = {
+    **{name: value for name, value in dict.items(matplotlib.rcParamsDefault) if not name.startswith(SESSION)},
     "font.family": "DejaVu Sans",
     "font.size": 9,
     "axes.titlesize": 9,
@@ -54,7 +70,7 @@ RC: dict[Any, Any] = {
 
 
 def styled(function: Callable[Arguments, Result]) -> Callable[Arguments, Result]:
-    """A figure function that draws in this style without touching the reader's own settings."""
+    """A figure function that draws in this style, whatever the reader's own settings are, and without touching them."""
 
     @wraps(function)
     def drawn(*args: Arguments.args, **kwargs: Arguments.kwargs) -> Result:
@@ -72,10 +88,9 @@ def blank(height: float, width: float = WIDTH) -> Figure:
 def save(figure: Figure, path: str | Path) -> Path:
     """Write a figure to the file type its name asks for; the same figure gives the same bytes."""
     path = Path(path)
-    path.parent.mkdir(parents=True, exist_ok=True)
     no_date = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}
-    with matplotlib.rc_context({**RC, "svg.hashsalt": "wakeflight"}):
-        figure.savefig(path, metadata=no_date.get(path.suffix))
+    with matplotlib.rc_context({**RC, "svg.hashsalt": "wakeflight"}), written(path) as stream:
+        figure.savefig(stream, format=path.suffix[1:] or "png", metadata=no_date.get(path.suffix))
     return path
 
 

@@ -9,6 +9,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ..atomic import write_text
+from ..errors import WakeflightError, one_line
 from ..plotting import COMPARISONS, FIGURES, Plot
 from ..plotting.style import save
 from ..progress import Progress, Reported, Silent, heard
@@ -44,7 +46,6 @@ def write(
     from jinja2 import Environment, PackageLoader, StrictUndefined
 
     out_dir = Path(out_dir)
-    out_dir.mkdir(parents=True, exist_ok=True)
     named = by_name(runs)
     first = next(iter(named.values()))
     several = runs is not first
@@ -55,22 +56,21 @@ def write(
         trim_blocks=True,
         lstrip_blocks=True,
     )
+    figures, missed = _figures(
+        COMPARISONS if several else FIGURES, named if several else first, out_dir, heard(progress), figure_format
+    )
     page = environment.get_template("report.html").render(
         title=_title(first, several),
         names=list(named),
         several=several,
         failures={name: run.attrs["failure"] for name, run in named.items() if not run.attrs.get("finished", 1)},
-        warnings=_common(warnings, named),
+        warnings=[*_common(warnings, named), *missed],
         tables=_tables(named, trim),
-        figures=_figures(
-            COMPARISONS if several else FIGURES, named if several else first, out_dir, heard(progress), figure_format
-        ),
+        figures=figures,
         configurations={name: configuration(run) for name, run in named.items()},
         version=first.attrs.get("program_version", ""),
     )
-    path = out_dir / "report.html"
-    path.write_text(page, encoding="utf-8")
-    return path
+    return write_text(out_dir / "report.html", page)
 
 
 def _title(run: xr.Dataset, several: bool) -> str:
@@ -110,16 +110,27 @@ def _common(texts_of: Callable[..., list[str]], named: Mapping[str, xr.Dataset])
 
 def _figures(
     plots: tuple[Plot, ...], data: object, out_dir: Path, progress: Progress | Silent, figure_format: str
-) -> list[Drawn]:
-    """Draw what can be drawn from the data, write each as PNG and keep it for the page."""
-    drawn = []
-    plots = tuple(plot for plot in plots if plot.drawable(data))
+) -> tuple[list[Drawn], list[str]]:
+    """Draw what can be drawn from the data, write each as PNG and keep it for the page; and what is to be said of others.
+
+    Numbers are safe before anything is drawn: whatever stops a figure stops that figure alone, but for a disk that is full.
+    """
+    drawn, missed = [], []
     progress.phase("figures", len(plots))
     for plot in plots:
-        figure = plot.figure(data)
-        path = save(figure, out_dir / f"{plot.name}.png")
-        if figure_format != "png":
-            save(figure, out_dir / f"{plot.name}.{figure_format}")
-        progress.advance(1, plot.name)
+        try:
+            if not plot.drawable(data):
+                continue
+            figure = plot.figure(data)
+            path = save(figure, out_dir / f"{plot.name}.png")
+            if figure_format != "png":
+                save(figure, out_dir / f"{plot.name}.{figure_format}")
+        except WakeflightError:
+            raise
+        except Exception as reason:
+            missed.append(f"figure {plot.name} could not be drawn: {type(reason).__name__}: {one_line(str(reason))}")
+            continue
+        finally:
+            progress.advance(1, plot.name)
         drawn.append(Drawn(plot.name, plot.caption, base64.b64encode(path.read_bytes()).decode("ascii")))
-    return drawn
+    return drawn, missed

@@ -12,7 +12,7 @@ import numpy as np
 from .._core import instruction_set
 from .attributes import flat_attributes
 from .errors import ResultsError
-from .schema import ATTRIBUTES, COORDINATES, LOOP, RUN, TRANSIENT, TRIM, TUNNEL, Variable
+from .schema import ATTRIBUTES, COORDINATES, LOOP, RUN, SCHEMA, TRANSIENT, TRIM, TUNNEL, Variable
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -134,10 +134,10 @@ def _label(variable: Variable) -> dict[str, str]:
     return {"units": variable.units, "long_name": variable.long_name}
 
 
-def _program() -> dict[str, str]:
-    """What computed the run: version and the instruction set of its sums."""
+def _program() -> dict[str, str | int]:
+    """What computed the run: version and the instruction set of its sums; version of the schema."""
     try:
         program_version = version("wakeflight")
     except PackageNotFoundError:
         program_version = "unknown"
-    return {"program_version": program_version, "instruction_set": instruction_set()}
+    return {"schema": SCHEMA, "program_version": program_version, "instruction_set": instruction_set()}

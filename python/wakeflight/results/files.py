@@ -3,21 +3,77 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ..atomic import written
 from .attributes import flat_attributes
 from .errors import ResultsError
+from .schema import SCHEMA
 
 if TYPE_CHECKING:
     import xarray as xr
 
 
+class _Kept(io.RawIOBase):
+    """A file under HDF5, which falls over a failing write, once more at the end of the process.
+
+    The first failure is kept here; from there on the file goes on in memory, so that HDF5 comes to its end.
+    """
+
+    def __init__(self, file: io.FileIO) -> None:
+        """Of an unbuffered file."""
+        self.file: io.FileIO | io.BytesIO = file
+        self.failure: OSError | None = None
+
+    def write(self, content: memoryview) -> int:  # type: ignore[override]
+        """Write all of it."""
+        done = 0
+        while done < len(content):
+            try:
+                done += self.file.write(content[done:]) or 0
+            except OSError as reason:
+                self._failed(reason)
+        return done
+
+    def truncate(self, size: int | None = None) -> int:
+        """Cut or grow."""
+        try:
+            return self.file.truncate(size)
+        except OSError as reason:
+            self._failed(reason)
+            return self.file.truncate(size)
+
+    def _failed(self, reason: OSError) -> None:
+        at = self.file.tell()
+        self.file.seek(0)
+        self.file = io.BytesIO(self.file.read())
+        self.file.seek(at)
+        self.failure = reason
+
+    def readinto(self, buffer: memoryview) -> int:  # type: ignore[override]
+        """Read back."""
+        return self.file.readinto(buffer)
+
+    def seek(self, offset: int, whence: int = 0) -> int:
+        """Go to a place."""
+        return self.file.seek(offset, whence)
+
+    def tell(self) -> int:
+        """The place."""
+        return self.file.tell()
+
+
 def save(dataset: xr.Dataset, path: str | Path) -> Path:
-    """Write NetCDF-4, compressed; the same dataset gives the same bytes. Returns the path."""
-    path = Path(path)
-    path.parent.mkdir(parents=True, exist_ok=True)
+    """Write NetCDF-4, compressed; the same dataset gives the same bytes. Returns the path.
+
+    The file is there whole or not at all; whoever holds the one before open keeps it.
+    """
+    import h5netcdf
+    from xarray.backends import H5NetCDFStore
+
     flat = dataset.copy()
     flat.attrs = flat_attributes(dataset.attrs)
     encoding = {
@@ -25,21 +81,35 @@ def save(dataset: xr.Dataset, path: str | Path) -> Path:
         for name, variable in flat.variables.items()
         if variable.ndim and variable.dtype.kind in "fiu"
     }
-    flat.to_netcdf(path, engine="h5netcdf", format="NETCDF4", encoding=encoding)
-    return path
+    with written(path, buffering=0) as stream:
+        kept = _Kept(stream)
+        with h5netcdf.File(kept, "w") as file:
+            flat.dump_to_store(H5NetCDFStore(file, mode="w"), encoding=encoding)
+        if kept.failure is not None:
+            raise kept.failure
+    return Path(path)
 
 
 def load(path: str | Path) -> xr.Dataset:
-    """Read a run or a trim back into memory; the file is closed."""
+    """Read a run or a trim back into memory; the file is closed. Nothing in it is executed.
+
+    Files of older schemas are read as they are; those of a newer one are refused.
+    """
     import xarray as xr
 
     path = Path(path)
     if not path.is_file():
         raise ResultsError(f"{path}: no such file")
     try:
-        return xr.load_dataset(path, engine="h5netcdf")
+        data = xr.load_dataset(path, engine="h5netcdf")
     except OSError as error:
         raise ResultsError(f"{path}: not a NetCDF-4 file ({error})") from error
+    schema = data.attrs.get("schema", 1)
+    if schema not in range(1, SCHEMA + 1):
+        raise ResultsError(
+            f"{path}: schema = {schema!s:.20}: this program reads 1 to {SCHEMA}; a newer one wrote the file"
+        )
+    return data
 
 
 def by_name(runs: xr.Dataset | Mapping[str, xr.Dataset], single: str | None = None) -> dict[str, xr.Dataset]:

@@ -7,6 +7,9 @@ from dataclasses import dataclass
 
 from .variables import MEANINGS, UNITS
 
+SCHEMA = 2
+"""Version of what a result holds, its attribute `schema`; files without one are of version 1, which had no `input`."""
+
 
 @dataclass(frozen=True)
 class Variable:
@@ -38,6 +41,9 @@ TIME = ("time",)
 BLADE = ("time", "blade")
 STATION = ("time", "blade", "station")
 DISK = ("azimuth", "station")
+
+CONTROL = ("lateral", "longitudinal", "collective", "pedal")
+"""Sticks that controllers and servos move."""
 
 WATCHED = (
     "inflow_max",
@@ -113,6 +119,7 @@ RUN: tuple[Variable, ...] = (
     *_table(("snapshot", "blade", "trailer", "age"), "wake_sheet_circulation", optional=True),
     *_table(
         TIME,
+        *(f"{kind}_{stick}" for kind in ("sas", "actuator") for stick in CONTROL),
         "beta_0",
         "power",
         "ct",
@@ -277,6 +284,8 @@ ATTRIBUTES: tuple[Attribute, ...] = (
     Attribute("maneuver", "manoeuvre"),
     Attribute("maneuver_adapted", "adapted to this aircraft"),
     Attribute("condition", "flight condition"),
+    Attribute("schema", "version of what the file holds"),
+    Attribute("input", "everything the run was made of, as JSON: `wakeflight rerun` flies it again"),
     Attribute("program_version", "program version"),
     Attribute("instruction_set", "instruction set of the vortex sums"),
     Attribute("finished", "1 if the run came to its end, 0 if it failed"),
@@ -303,5 +312,8 @@ ATTRIBUTES: tuple[Attribute, ...] = (
     Attribute("segment_evaluations_trim", "wake segment evaluations: trim"),
     Attribute("segment_evaluations_convergence", "wake segment evaluations: convergence phase"),
     Attribute("relaxation_iterations_trim", "relaxation iterations: trim"),
+    Attribute("sas_saturated", "seconds that an authority held controllers, by stick [s]"),
+    Attribute("actuator_rate_limited", "seconds that their rate held the servos, by blade pitch [s]"),
+    Attribute("actuator_at_stop", "seconds that servos were at a stop, by blade pitch [s]"),
     Attribute("warnings", "warnings, one a line"),
 )

@@ -7,11 +7,13 @@ import time
 from typing import Any
 
 from ..aircraft import Aircraft
+from ..arguments import checked
 from ..condition import FlightCondition, condition_for, target
 from ..errors import NumericalFailure
 from ..inflow import DynamicInflow, InflowModel, inflow_model, trim_model
 from ..model import Model
 from ..progress import Reported, heard, reporting
+from ..units import number, whole
 from .aircraft import AircraftOnWake, on_marching, on_relaxation
 from .equations import INCH, dynamic_map, without_inflow
 from .limits import windmill
@@ -20,10 +22,17 @@ from .results import Trim
 from .solve import solve_condition
 from .wake import CONTROL_TOLERANCE, WakeInTrim
 
+MOST_HARMONICS = 40
+"""Most harmonics of the blades' periodic motion: their instants and equations grow with them."""
+
+CONTROL_TOLERANCES = (1e-12, 1.0)
+"""Least and largest tolerance of the pitch controls [rad] between trims on a free wake."""
+
 __all__ = ["INCH", "Trim", "physical", "trim"]
 
 
 @reporting
+@checked
 def trim(
     aircraft: Aircraft,
     condition: FlightCondition | None = None,
@@ -50,6 +59,8 @@ def trim(
     """
     progress = heard(progress)
     started = time.perf_counter()
+    n_harmonics = whole("n_harmonics", n_harmonics, 0, MOST_HARMONICS)
+    control_tolerance = number("control_tolerance", control_tolerance, *CONTROL_TOLERANCES)
     condition = condition_for(aircraft, condition)
     chosen = inflow_model(inflow)
     chosen.step(aircraft)

@@ -9,6 +9,7 @@ from inspect import signature
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..arguments import checked
 from ..errors import InputError, NumericalFailure
 from ..inflow import DynamicInflow
 from ..progress import Reported, heard, reporting
@@ -39,6 +40,7 @@ __all__ = ["Tunnel", "check", "stand_inflow", "tunnel"]
 
 
 @reporting
+@checked
 def tunnel(
     aircraft: str | Path | Aircraft | Rotor = "uh60a",
     collective: Any = None,
@@ -231,7 +233,5 @@ def _compiled(
             rotor = rotor.with_reference_pitch(guess)
             simple = StandModel.build(rotor, condition, dynamic, n_harmonics, windmill=windmill)
         return simple, None if windmill else StandModel.build(rotor, condition, model, n_harmonics, blade_model)
-    except ValueError as reason:
-        if isinstance(reason, InputError):
-            raise
-        raise InputError(f"{rotor.path}: {reason}") from reason
+    except InputError as reason:
+        raise reason.within(rotor.path) from reason

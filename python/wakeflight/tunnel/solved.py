@@ -217,7 +217,10 @@ class Solved:
         Bound vortices, tip vortices and what else is free; near-wake trailers not: for points away from the blades.
         With a marching wake the mean is over its last revolution.
         """
-        at = np.atleast_2d(np.asarray(points, dtype=float))
+        try:
+            at = np.atleast_2d(np.asarray(points, dtype=float))
+        except (TypeError, ValueError) as reason:
+            raise InputError.of("points", points, "must be finite numbers of shape (n, 3)") from reason
         if at.ndim != 2 or at.shape[1] != 3 or not np.all(np.isfinite(at)):
             raise InputError.of("points", np.shape(points), "must be finite numbers of shape (n, 3)")
         s = self.solution

@@ -8,6 +8,7 @@ import re
 from collections.abc import Sequence
 from pathlib import Path
 
+from ..atomic import write_text
 from .case import Check
 from .run import Result
 
@@ -33,9 +34,7 @@ def write(results: Sequence[Result], path: Path) -> Path:
     text = environment.get_template("validation.html").render(
         groups=groups, counts=counts, n=len(results), seconds=sum(r.seconds for r in results)
     )
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(text, encoding="utf-8")
-    return path
+    return write_text(path, text)
 
 
 _VERDICTS = ("within", "partly within", "outside", "shown", "failed", "waits")

@@ -5,10 +5,12 @@ from __future__ import annotations
 
 import base64
 import csv
+import io
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
+from ..atomic import write_text
 from ..studies import attempt
 from .case import Case, Check, Outcome
 
@@ -79,25 +81,14 @@ def run_all(
 def _keep(case: Case, outcome: Outcome, folder: Path) -> str:
     """Write numbers and figure; returns the figure as base64 text for the page."""
     own = folder / case.slug
-    own.mkdir(parents=True, exist_ok=True)
-    with (own / "checks.csv").open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file)
-        writer.writerow(["quantity", "unit", "ours", "reference", "difference", "tolerance", "kind", "within", "note"])
-        for c in outcome.checks:
-            within = "" if c.within is None else ("yes" if c.within else "no")
-            writer.writerow(
-                [
-                    c.quantity,
-                    c.unit,
-                    repr(c.ours),
-                    repr(c.reference),
-                    repr(c.difference),
-                    c.tolerance,
-                    c.kind,
-                    within,
-                    c.note,
-                ]
-            )
+    table = io.StringIO()
+    writer = csv.writer(table)
+    writer.writerow(["quantity", "unit", "ours", "reference", "difference", "tolerance", "kind", "within", "note"])
+    for c in outcome.checks:
+        within = "" if c.within is None else ("yes" if c.within else "no")
+        numbers = map(repr, (c.ours, c.reference, c.difference))
+        writer.writerow([c.quantity, c.unit, *numbers, c.tolerance, c.kind, within, c.note])
+    write_text(own / "checks.csv", table.getvalue())
     if outcome.figure is None:
         return ""
     from ..plotting.style import save

@@ -8,6 +8,7 @@ from dataclasses import replace
 from typing import Any
 
 from ...aircraft import Aircraft, Rotor, load_rotor
+from ...arguments import checked
 from ...condition import FlightCondition, condition_for
 from ...errors import InputError, NumericalFailure
 from ...inflow import InflowModel, inflow_model
@@ -23,6 +24,7 @@ __all__ = ["PARAMETERS", "Study", "converge"]
 
 
 @reporting
+@checked
 def converge(
     aircraft: Aircraft | Rotor,
     run: str | Maneuver = "trim",

@@ -4,8 +4,10 @@
 from __future__ import annotations
 
 import csv
+import io
 from pathlib import Path
 
+from ...atomic import write_text
 from ...results import save
 from .findings import Findings
 from .table import markdown, table
@@ -26,10 +28,7 @@ class Study(Findings):
         """Write converge.nc, converge.csv and converge.md into `folder`."""
         folder = Path(folder)
         paths = [save(self.data, folder / "converge.nc")]
-        path = folder / "converge.csv"
-        with path.open("w", newline="", encoding="utf-8") as stream:
-            writer = csv.writer(stream, lineterminator="\n")
-            writer.writerows(self.rows())
-        page = folder / "converge.md"
-        page.write_text(self.markdown() + "\n", encoding="utf-8")
-        return [*paths, path, page]
+        stream = io.StringIO()
+        csv.writer(stream, lineterminator="\n").writerows(self.rows())
+        table = write_text(folder / "converge.csv", stream.getvalue())
+        return [*paths, table, write_text(folder / "converge.md", self.markdown() + "\n")]

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ...atomic import write_text
 from ...export import vtk
 from ...plotting.style import save
 from ...report.summary import configuration, counters, summary, warnings
@@ -49,7 +50,6 @@ def write(
     """
     from jinja2 import Environment, PackageLoader, StrictUndefined
 
-    out_dir.mkdir(parents=True, exist_ok=True)
     flights = {maneuver: {model: runs[f"{maneuver}/{model}"] for model in MODELS} for maneuver in MANEUVERS}
     table = judge(runs)
     figures = [_draw(f.name, f.caption, lambda f=f: f.draw(flights[f.maneuver]), out_dir) for f in FIGURES]
@@ -89,9 +89,7 @@ def write(
         wake_data=viewer.data(flights, rotor).replace("</", "<\\/"),
         wake_script=viewer.script(),
     )
-    path = out_dir / "report.html"
-    path.write_text(page, encoding="utf-8")
-    return path
+    return write_text(out_dir / "report.html", page)
 
 
 def export(flights: Mapping[str, Runs], folder: Path) -> None:

@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""Controllers between the pilot's hands and the blades: generic blocks, servos, a user's own, in one fixed order."""
+
+from __future__ import annotations
+
+from .augmentation import Augmentation, augmentation
+from .blocks import AltitudeHold, AttitudeHold, RateDamping, TurnCoordination
+from .chain import Chain
+from .controller import Controller
+from .file import from_table, load_control
+from .log import ControlLog
+from .pitch_bias import PitchBiasActuator
+from .sensors import Sensors
+from .servos import Servos
+from .systems import from_control
+
+__all__ = [
+    "AltitudeHold",
+    "AttitudeHold",
+    "Augmentation",
+    "Chain",
+    "ControlLog",
+    "Controller",
+    "PitchBiasActuator",
+    "RateDamping",
+    "Sensors",
+    "Servos",
+    "TurnCoordination",
+    "augmentation",
+    "from_control",
+    "from_table",
+    "load_control",
+]

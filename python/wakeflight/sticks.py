@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""The four sticks: their names, their order everywhere, and paths of them over a coupling step."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+STICKS = ("lateral", "longitudinal", "collective", "pedal")
+"""Order of sticks everywhere: right +, aft +, up +, right +, inches from the stop."""
+
+INCH = 0.0254
+"""An inch [m]."""
+
+
+class StickPath(Protocol):
+    """Sticks over a coupling step, linear in time between corners."""
+
+    def at(self, t: float) -> np.ndarray:
+        """Positions (4,) [m from the stop] at time `t` [s]."""
+
+    def rate(self, t: float) -> np.ndarray:
+        """Rates (4,) [m/s] at time `t` [s]."""
+
+    def pieces(self, t0: float, t1: float) -> list[tuple[float, float]]:
+        """The interval t0..t1 cut at the corners."""
+
+
+@dataclass(frozen=True)
+class Ramp:
+    """Sticks [m] that go from one place to another in a coupling step, and arrive with the rate they moved at."""
+
+    begin: float
+    end: float
+    start: np.ndarray
+    target: np.ndarray
+
+    def at(self, t: float) -> np.ndarray:
+        """Positions (4,) [m from the stop] at time `t` [s]."""
+        return self.target if t >= self.end else self.start + self.rate(t) * (t - self.begin)
+
+    def rate(self, t: float) -> np.ndarray:
+        """Rates (4,) [m/s]."""
+        return (self.target - self.start) / (self.end - self.begin)
+
+    def pieces(self, t0: float, t1: float) -> list[tuple[float, float]]:
+        """One."""
+        return [(t0, t1)]
+
+
+@dataclass(frozen=True)
+class Added:
+    """A path of sticks with an offset (4,) [m] that is held."""
+
+    path: StickPath
+    offset: np.ndarray
+
+    def at(self, t: float) -> np.ndarray:
+        """Positions (4,) [m from the stop] at time `t` [s]."""
+        return self.path.at(t) + self.offset
+
+    def rate(self, t: float) -> np.ndarray:
+        """Rates (4,) [m/s]: those of the path."""
+        return self.path.rate(t)
+
+    def pieces(self, t0: float, t1: float) -> list[tuple[float, float]]:
+        """Those of the path."""
+        return self.path.pieces(t0, t1)
