@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     )
     from .errors import InputError, NumericalFailure, WakeflightError
     from .export import export
+    from .file_schemas import file_schema
     from .flight import Flight, fly
     from .inflow import AnnularInflow, DynamicInflow, RelaxationWake, TimeMarchingWake, inflow_model
     from .maneuvers import Maneuver, arrested_descent, load_maneuver, roll_reversal
@@ -72,6 +73,7 @@ _HOME = {
     "NumericalFailure": "errors",
     "WakeflightError": "errors",
     "export": "export",
+    "file_schema": "file_schemas",
     "Flight": "flight",
     "fly": "flight",
     "AnnularInflow": "inflow",
@@ -131,6 +133,7 @@ __all__ = [
     "condition_for",
     "converge",
     "export",
+    "file_schema",
     "fly",
     "from_control",
     "induced_velocity",
