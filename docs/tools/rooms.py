@@ -31,7 +31,7 @@ ROOMS = {
     "exchange": ("exchange",),
     "model": ("model", "modes", "vortex", "wing", "airfoil_loop"),
     "monitors": ("monitors", "limits"),
-    "aircraft": ("aircraft", "thinning"),
+    "aircraft": ("aircraft", "thinning", "file_schemas"),
     "inputs": (
         "condition",
         "inflow",

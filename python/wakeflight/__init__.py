@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     )
     from .errors import InputError, NumericalFailure, WakeflightError
     from .export import export
+    from .file_schemas import file_schema
     from .flight import Flight, fly
     from .handling import HandlingQualities, handling_qualities
     from .inflow import AnnularInflow, DynamicInflow, RelaxationWake, TimeMarchingWake, inflow_model
@@ -74,6 +75,7 @@ _HOME = {
     "NumericalFailure": "errors",
     "WakeflightError": "errors",
     "export": "export",
+    "file_schema": "file_schemas",
     "Flight": "flight",
     "fly": "flight",
     "HandlingQualities": "handling",
@@ -139,6 +141,7 @@ __all__ = [
     "condition_for",
     "converge",
     "export",
+    "file_schema",
     "fly",
     "from_control",
     "handling_qualities",

@@ -347,6 +347,10 @@ class _File(BaseModel):
     control: dict[str, Any] | None = None
 
 
+FILE_MODEL: type[BaseModel] = _File
+"""What a manoeuvre file may hold."""
+
+
 def _shipped(name: str) -> Maneuver:
     return _read(Path(str(resources.files(__package__))) / "maneuver_data" / f"{name}.toml", shipped=True)
 

@@ -304,7 +304,7 @@ def test_a_shell_completes_commands_and_values():
         ).stdout.split()
 
     assert completed("wakeflight", "tr") == ["trim"]
-    assert completed("wakeflight", "fly", "roll") == ["roll-reversal"]
+    assert completed("wakeflight", "fly", "arr") == ["arrested-descent"]
     assert completed("wakeflight", "trim", "--inflow", "re") == ["relaxation"]
 
 

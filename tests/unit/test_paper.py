@@ -10,7 +10,8 @@ import pytest
 import synthetic
 import xarray as xr
 
-from wakeflight.studies.paper import cases, cost, quantities, readings, viewer
+from wakeflight.report import viewer
+from wakeflight.studies.paper import cases, cost, quantities, readings
 from wakeflight.studies.paper.figures import FIGURES
 from wakeflight.studies.paper.statements import VERDICTS, counts, judge
 from wakeflight.studies.paper.statements.conclusions import lag

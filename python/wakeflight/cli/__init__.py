@@ -16,7 +16,22 @@ from typing import Annotated
 import typer
 
 from ..errors import NumericalFailure, WakeflightError, one_line, shortened
-from . import case, compare, converge, export, fly, linearize, listing, modes, paper, report, trim, tunnel, validate
+from . import (
+    case,
+    compare,
+    converge,
+    export,
+    fly,
+    linearize,
+    listing,
+    modes,
+    new_aircraft,
+    paper,
+    report,
+    trim,
+    tunnel,
+    validate,
+)
 from .groups import expanded
 
 app = typer.Typer(
@@ -44,6 +59,8 @@ for _command in (
     app.command()(expanded(_command))
 app.command("run")(case.case)
 app.command("list")(listing.listing)
+app.command("new-aircraft")(new_aircraft.new_aircraft)
+app.command("schema")(new_aircraft.schema)
 
 
 def _version(asked: bool) -> None:

@@ -60,7 +60,7 @@ def wake_side_views(runs: Mapping[str, xr.Dataset]) -> Figure:
     grid = figure.subplots(len(common), 1, sharex=True, squeeze=False)[:, 0]
     for axes, mark in zip(grid, common, strict=True):
         axes.plot((-1, 1), (0, 0), color=style.GREY, linewidth=1.6)
-        for (name, run), color, line in zip(runs.items(), style.COLORS, style.LINES, strict=False):
+        for (name, run), (color, line) in zip(runs.items(), style.looks(runs).values(), strict=True):
             k = int(np.argmin(np.abs(run["snapshot_revolution"].values - mark)))
             blade = run["wake"].isel(snapshot=k, blade=0) / float(run.attrs["radius"])
             axes.plot(blade.sel(xyz="x"), blade.sel(xyz="z"), color=color, linestyle=line, linewidth=1.0, label=name)

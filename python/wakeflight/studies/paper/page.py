@@ -12,8 +12,9 @@ from typing import TYPE_CHECKING
 from ...atomic import write_text
 from ...export import vtk
 from ...plotting.style import save
+from ...report import viewer
 from ...report.summary import configuration, counters, summary, warnings
-from . import cost, extras, readings, viewer
+from . import cost, extras, readings
 from .cases import AUGMENTED, MANEUVERS, MODELS
 from .figures import FIGURES
 from .statements import VERDICTS, counts, judge
@@ -48,7 +49,7 @@ def write(
     runs: flights by case name. rotor: shaft_tilt [rad], hinge_offset, root_cutout and chord over R. findings, missed: of
     the studies, and of those that could not be finished.
     """
-    from jinja2 import Environment, PackageLoader, StrictUndefined
+    from jinja2 import ChoiceLoader, Environment, PackageLoader, StrictUndefined
 
     shown = (*MANEUVERS, AUGMENTED)
     flights = {maneuver: {model: runs[f"{maneuver}/{model}"] for model in MODELS} for maneuver in shown}
@@ -63,7 +64,7 @@ def write(
     }
     export(flights, out_dir / "paraview")
     environment = Environment(
-        loader=PackageLoader("wakeflight.studies.paper", "templates"),
+        loader=ChoiceLoader([PackageLoader(f"wakeflight.{each}", "templates") for each in ("studies.paper", "report")]),
         autoescape=True,
         undefined=StrictUndefined,
         trim_blocks=True,
@@ -91,6 +92,7 @@ def write(
         studies=[(f, _draw(f"study-{f.name}", f.done, lambda f=f: f.figure, out_dir)) for f in findings],
         missed=list(missed),
         configurations={name: configuration(run) for name, run in runs.items()},
+        panels=len(MODELS),
         wake_data=viewer.data(flights, rotor).replace("</", "<\\/"),
         wake_script=viewer.script(),
     )
