@@ -138,6 +138,7 @@ def test_a_discrete_controller_does_not_depend_on_the_coupling_step(uh60a):
 
 
 CHAINS = {
+    "path": wf.follow(load_factor=[("0 s", 1.0), ("0.5 s", 1.2)], climb_rate=[("0 s", "1 m/s")], rate="60 Hz"),
     "own": [Damper()],
     "own, at its rate": [Damper(rate="90 Hz")],
     "blocks and servos": wf.Augmentation(
@@ -324,3 +325,62 @@ def test_a_system_of_python_control_flies_as_the_block_does(baseline_dynamic):
     ):
         with pytest.raises(wf.InputError, match=named):
             make()
+
+
+HOLD = {"lateral": [(0.0, 0.0), (1.0, 0.0)]}
+
+
+@pytest.fixture(scope="module", params=["uh60a", "bo105"])
+def level(request):
+    return wf.trim(wf.load_aircraft(request.param), wf.FlightCondition(speed="80 kt"), inflow="dynamic")
+
+
+def followed(start, seconds, **path):
+    return wf.fly(start, wf.Maneuver("hold", HOLD, seconds=seconds), integrator="fixed", control=wf.follow(**path)).data
+
+
+def test_a_bank_is_followed(level):
+    data = followed(level, 7.0, bank=[("0.5 s", "0 deg"), ("2.5 s", "45 deg")])
+    t, bank = data["time"].values, np.degrees(data["roll"].values)
+    assert np.abs(bank - np.interp(t, [0.5, 2.5], [0.0, 45.0])).max() < 8.0
+    assert np.abs(bank[t > 5.0] - 45.0).max() < 3.0
+    # in a coordinated turn: r = g sin(phi) cos(theta)/V
+    speed = np.sqrt(sum(data[name].values ** 2 for name in "uvw"))
+    turn = 9.80665 * np.sin(data["roll"]) * np.cos(data["pitch"]) / speed
+    assert np.abs(data["r"].values - turn.values)[t > 5.0].max() < 0.03
+
+
+def test_a_load_factor_is_followed_late(level):
+    data = followed(level, 5.0, load_factor=[("0.5 s", 1.0), ("1.5 s", 1.5), ("2.5 s", 1.5), ("3.5 s", 1.0)])
+    u, v, w, p, q, roll, pitch, t = (data[name].values for name in ("u", "v", "w", "p", "q", "roll", "pitch", "time"))
+    n = -(np.gradient(w, t) + p * v - q * u) / 9.80665 + np.cos(pitch) * np.cos(roll)
+    n = np.convolve(np.pad(n, 4, mode="edge"), np.ones(9) / 9, "valid")
+    assert 1.45 < n.max() < 1.66
+    half = [t[np.argmax(n > 1.25)], t[np.flatnonzero(n > 1.25)[-1]]]
+    late = [half[0] - 1.0, half[1] - 3.0]
+    assert all(0.3 < each < 1.4 for each in late), late
+
+
+def test_a_speed_is_followed_at_a_climb_rate(level):
+    data = followed(level, 16.0, speed=[("0.5 s", "80 kt"), ("8 s", "100 kt")], climb_rate=[("0 s", "0 m/s")])
+    speed = np.sqrt(sum(data[name].values ** 2 for name in "uvw")) / 0.514444
+    assert speed[-1] == pytest.approx(100.0, abs=5.0)
+    assert abs(float(data["down"][-1])) < 8.0
+
+
+@pytest.mark.parametrize(
+    "path, named",
+    [
+        ({}, "at least one of bank, load_factor"),
+        ({"bank": [("0 s", 10.0)]}, "bank = 10.0"),
+        ({"bank": "45 deg"}, "pairs of time and value"),
+        ({"bank": [("1 s", "0 deg"), ("1 s", "5 deg")]}, "bank time = '1 s': must ascend"),
+        ({"load_factor": [("0 s", "1 g")]}, "load_factor"),
+        ({"load_factor": [("0 s", 1.0)], "speed": [("0 s", "80 kt")]}, "one of them"),
+    ],
+)
+def test_a_path_that_cannot_be_is_refused(path, named):
+    with pytest.raises(wf.InputError, match=named):
+        wf.follow(**path)
+    with pytest.raises(wf.InputError, match=r"hands\.roll"):
+        wf.Hands(roll=-1.0)

@@ -8,6 +8,7 @@ from .blocks import AltitudeHold, AttitudeHold, RateDamping, TurnCoordination
 from .chain import Chain
 from .controller import Controller
 from .file import from_table, load_control
+from .follow import Follow, Hands, follow
 from .log import ControlLog
 from .pitch_bias import PitchBiasActuator
 from .sensors import Sensors
@@ -21,12 +22,15 @@ __all__ = [
     "Chain",
     "ControlLog",
     "Controller",
+    "Follow",
+    "Hands",
     "PitchBiasActuator",
     "RateDamping",
     "Sensors",
     "Servos",
     "TurnCoordination",
     "augmentation",
+    "follow",
     "from_control",
     "from_table",
     "load_control",
