@@ -20,6 +20,15 @@ def run(case):
         for name, tolerance in TOLERANCES.items()
     ]
     checks += [Check(name, model[f"{name[0]}_{name[1]}"], published[name], gate=False) for name in SIGNS]
+    small = wf.linearize(start, order=8).A
+    rows = {"X": "u", "Z": "w", "M": "q", "Y": "v", "L": "p", "N": "r"}
+    for name in (*TOLERANCES, *SIGNS):
+        mine = float(small.sel(state=rows[name[0]], state_=name[1]))
+        checks.append(
+            Check(
+                f"{name}, wf.linearize", mine, published[name], gate=False, note="eight states, the aircraft's inertia"
+            )
+        )
     for key, ours in (("main", start.theta_0), ("tail", start.theta_tr)):
         name = f"{key} rotor collective"
         checks.append(Check(name, np.degrees(ours), published[f"{key}_rotor_collective_deg"], 1.5, "deg"))

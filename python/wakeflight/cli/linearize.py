@@ -22,7 +22,9 @@ def linearize(
     inputs: Annotated[
         str, typer.Option("--inputs", help="by commas: sticks, stabilator, wind_north, wind_east, wind_down")
     ] = "lateral,longitudinal,collective,pedal",
-    linear_wake: Annotated[str | None, typer.Option("--linear-wake", help="dynamic, frozen")] = None,
+    linear_wake: Annotated[
+        str | None, typer.Option("--linear-wake", help="dynamic; of a free wake quasi-static, frozen")
+    ] = None,
     method: Annotated[
         str, typer.Option("--method", help="harmonic-decomposition, averaging")
     ] = "harmonic-decomposition",
@@ -59,6 +61,7 @@ def linearize(
     print(f"{start.aircraft.name}, {model!r}")
     print(model.modes_table())
     print()
+    print("derivatives of eight states, 1/s, m, rad, in" if len(model.states) > 10 else "derivatives, 1/s, m, rad, in")
     print(model.derivatives_table())
     folder = folder_made(asked.out)
     model.to_dataset().to_netcdf(folder / "linear.nc", engine="h5netcdf")

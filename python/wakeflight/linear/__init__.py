@@ -9,11 +9,12 @@ from typing import Any
 from ..errors import InputError
 from ..results import flat_attributes
 from ..trim import Trim
-from .build import BLADES, derivatives, periodic
+from .build import BLADES, derivatives, periodic, with_wake, without_rates
 from .constant import averaged, decomposed, default_harmonics
 from .instants import STICKS, check_inputs, units_of
 from .linearized import METHODS, Linearized
 from .names import INFLOW
+from .quasi_static import wake_gains
 from .statespace import LinearModel
 from .wake import check_wake
 
@@ -30,13 +31,16 @@ def linearize(
     method: str = "harmonic-decomposition",
     harmonics: Sequence[int] | None = None,
     azimuths: int | None = None,
+    stick_rates: bool = True,
 ) -> LinearModel:
     """Linear model about a trim: x_dot = A x + B u, y = C x + D u, u and y about trim.
 
     inputs: sticks [in] and, in straight flight, `stabilator` [rad], `wind_north`, `wind_east`, `wind_down` [m/s]; the track is
-    north. Rates of the sticks are felt: outputs answer a step of a stick at once by a little (D).
+    north. stick_rates: whether the rates of the sticks are felt, as blades do: outputs then answer a step of a stick at once by a
+    little (D), and B is that of what remains; without them B holds the control derivatives as they are usually meant.
     wake: of a trim with dynamic inflow `dynamic`, its states are states (default), or `frozen`, they stay as trimmed; of one on a
-    free wake `frozen`, the inflow at every station stays as trimmed.
+    free wake `frozen`, the inflow at every station stays as trimmed, or `quasi-static`, it follows hub motion, blade pitch and
+    tilt of the disk at once, as the relaxation wake does (some 25 wakes, half a minute).
     blades: `multiblade` coordinates, or `individual` ones.
     order: None or `full`; otherwise as for `LinearModel.reduce`.
     method: `harmonic-decomposition`, or `averaging` over azimuth. harmonics: of the state, kept beside its mean; by default those
@@ -53,11 +57,20 @@ def linearize(
     if blades not in BLADES:
         raise InputError.of("blades", blades, f"allowed: {', '.join(BLADES)}")
     check_method(method)
+    if stick_rates is not True and stick_rates is not False:
+        raise InputError.of("stick_rates", stick_rates, "allowed: True, False")
     if isinstance(order, str) and order != "full":
         raise InputError.of("order", order, "must be a number of states, names of states to keep, or full")
     wake = check_wake(wake, start.inflow)
     n = _azimuths(azimuths, start)
     raw = derivatives(start, asked, n)
+    if not stick_rates:
+        raw = without_rates(raw)
+    said: dict[str, Any] = {}
+    if wake == "quasi-static":
+        gains = wake_gains(start)
+        raw = with_wake(start, raw, gains, asked)
+        said["wake_curvature"] = gains.curvature
     system = periodic(start, raw, asked, blades, INFLOW if start.inflow.is_dynamic and wake == "frozen" else ())
     kept = _harmonics(harmonics, raw.where.n_blades, blades, n) if method == METHODS[0] else ()
     constant = decomposed(system, kept) if kept else averaged(system)
@@ -70,8 +83,10 @@ def linearize(
         "method": method if kept else METHODS[1],
         "harmonics": list(kept),
         "azimuths": n,
+        "stick_rates": stick_rates,
         "n_modes": start.aircraft.discretisation.n_modes,
         "n_elements": start.aircraft.discretisation.n_elements,
+        **said,
     }
     si = tuple(each for _, _, each in units_of(asked))
     found = Linearized.from_periodic(constant, system, kept, si, flat_attributes(attributes))

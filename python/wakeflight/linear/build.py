@@ -3,17 +3,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ..errors import InputError
 from ..trim import Trim
-from .instants import Instants, along, units_of
+from .instants import STICKS, Instants, along, units_of
 from .multiblade import columns, renumbered, rotation, to_multiblade
 from .names import Places, places
 from .outputs import outputs
 from .periodic import PeriodicSystem
+from .quasi_static import WakeGains, by_states
 
 BLADES = ("multiblade", "individual")
 
@@ -53,6 +54,24 @@ def derivatives(start: Trim, inputs: tuple[str, ...], n: int) -> Raw:
         np.concatenate([first.b_rate[:, order] for order in orders]),
         np.concatenate(held),
     )
+
+
+def without_rates(raw: Raw) -> Raw:
+    """The same with the rates of the inputs not felt."""
+    return replace(raw, b_rate=np.zeros_like(raw.b_rate))
+
+
+def with_wake(start: Trim, raw: Raw, gains: WakeGains, inputs: tuple[str, ...]) -> Raw:
+    """The same with inflow that follows states and sticks at once."""
+    where = raw.where
+    states, sticks = by_states(start, where, gains, columns(where.n_blades))
+    # states of the gains are multiblade coordinates of the blades
+    a = raw.a + raw.held @ (states @ rotation(where, raw.psi, start.model.omega)[2])
+    b = raw.b.copy()
+    for i, name in enumerate(inputs):
+        if name in STICKS:
+            b[:, :, i] += np.einsum("tsl,tl->ts", raw.held, sticks[:, :, STICKS.index(name)])
+    return replace(raw, a=a, b=b)
 
 
 def periodic(

@@ -64,6 +64,12 @@ class Linearized(LinearModel):
             attributes={**self.attributes, "method": "averaging"},
         )
 
+    def derivatives_table(self) -> str:
+        """Stability and control derivatives to print, the rates of the sticks not felt."""
+        a, b, c, d = self.matrices
+        plain = a, b - a @ self.rate, c, d - c @ self.rate
+        return LinearModel(plain, self.states, self.inputs, self.outputs, self.input_si).derivatives_table()
+
     def floquet(self, steps: int = 90) -> np.ndarray:
         """Characteristic exponents of the periodic system (s,) [1/s]; multiples of the rotor speed by the averaged roots."""
         return self.periodic.exponents(np.linalg.eigvals(self.periodic.a.mean(axis=0)), steps)

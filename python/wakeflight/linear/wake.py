@@ -7,8 +7,11 @@ from ..errors import InputError
 from ..inflow import InflowModel
 
 OF_DYNAMIC = ("dynamic", "frozen")
-OF_WAKE = ("frozen",)
-NOT_BUILT = ("states",)
+OF_WAKE = ("quasi-static", "frozen")
+NOT_BUILT = {
+    "states": "markers of a free wake as states of a linear model",
+    "identified": "inflow dynamics identified from flights with a free wake",
+}
 
 
 def check_wake(asked: str | None, inflow: InflowModel) -> str:
@@ -20,7 +23,7 @@ def check_wake(asked: str | None, inflow: InflowModel) -> str:
         raise InputError.of(
             "wake",
             asked,
-            "is not built: markers of a free wake as states of a linear model; allowed: " + ", ".join(allowed),
+            f"is not built ({NOT_BUILT[asked]}); allowed: {', '.join(allowed)}",
         )
     if asked is None or asked not in allowed:
         raise InputError.of(
