@@ -17,6 +17,7 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from .acoustics import noise
     from .aircraft import Aircraft, Rotor, load_aircraft, load_rotor
     from .airfoil_loop import airfoil_loop
     from .condition import FlightCondition, condition_for
@@ -34,7 +35,7 @@ if TYPE_CHECKING:
         load_control,
     )
     from .errors import InputError, NumericalFailure, WakeflightError
-    from .export import export
+    from .export import export, export_wopwop
     from .file_schemas import file_schema
     from .flight import Flight, fly
     from .inflow import AnnularInflow, DynamicInflow, RelaxationWake, TimeMarchingWake, inflow_model
@@ -50,6 +51,7 @@ if TYPE_CHECKING:
     from .wing import Wing, wing
 
 _HOME = {
+    "noise": "acoustics",
     "Aircraft": "aircraft",
     "load_aircraft": "aircraft",
     "Rotor": "aircraft",
@@ -73,6 +75,7 @@ _HOME = {
     "NumericalFailure": "errors",
     "WakeflightError": "errors",
     "export": "export",
+    "export_wopwop": "export",
     "file_schema": "file_schemas",
     "Flight": "flight",
     "fly": "flight",
@@ -133,6 +136,7 @@ __all__ = [
     "condition_for",
     "converge",
     "export",
+    "export_wopwop",
     "file_schema",
     "fly",
     "from_control",
@@ -142,6 +146,7 @@ __all__ = [
     "load_control",
     "load_maneuver",
     "load_rotor",
+    "noise",
     "roll_reversal",
     "trim",
     "tunnel",
