@@ -38,7 +38,9 @@ if TYPE_CHECKING:
     from .export import export, export_wopwop
     from .file_schemas import file_schema
     from .flight import Flight, fly
+    from .handling import HandlingQualities, handling_qualities
     from .inflow import AnnularInflow, DynamicInflow, RelaxationWake, TimeMarchingWake, inflow_model
+    from .linear import LinearModel, linearize
     from .maneuvers import Maneuver, arrested_descent, load_maneuver, roll_reversal
     from .modes import blade_modes
     from .references import bibtex
@@ -79,11 +81,15 @@ _HOME = {
     "file_schema": "file_schemas",
     "Flight": "flight",
     "fly": "flight",
+    "HandlingQualities": "handling",
+    "handling_qualities": "handling",
     "AnnularInflow": "inflow",
     "DynamicInflow": "inflow",
     "RelaxationWake": "inflow",
     "TimeMarchingWake": "inflow",
     "inflow_model": "inflow",
+    "LinearModel": "linear",
+    "linearize": "linear",
     "Maneuver": "maneuvers",
     "arrested_descent": "maneuvers",
     "load_maneuver": "maneuvers",
@@ -111,7 +117,9 @@ __all__ = [
     "DynamicInflow",
     "Flight",
     "FlightCondition",
+    "HandlingQualities",
     "InputError",
+    "LinearModel",
     "Maneuver",
     "NumericalFailure",
     "PitchBiasActuator",
@@ -140,8 +148,10 @@ __all__ = [
     "file_schema",
     "fly",
     "from_control",
+    "handling_qualities",
     "induced_velocity",
     "inflow_model",
+    "linearize",
     "load_aircraft",
     "load_control",
     "load_maneuver",

@@ -7,13 +7,31 @@ failure (what was computed is kept).
 
 from __future__ import annotations
 
+import os
 import sys
+import traceback
+from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from ..errors import NumericalFailure, WakeflightError, one_line
-from . import case, compare, converge, export, fly, listing, modes, new_aircraft, paper, report, trim, tunnel, validate
+from ..errors import NumericalFailure, WakeflightError, one_line, shortened
+from . import (
+    case,
+    compare,
+    converge,
+    export,
+    fly,
+    linearize,
+    listing,
+    modes,
+    new_aircraft,
+    paper,
+    report,
+    trim,
+    tunnel,
+    validate,
+)
 from .groups import expanded
 
 app = typer.Typer(
@@ -29,6 +47,7 @@ for _command in (
     compare.compare,
     trim.trim,
     modes.modes,
+    linearize.linearize,
     report.report,
     converge.converge,
     validate.validate,
@@ -78,7 +97,9 @@ def main(arguments: list[str] | None = None) -> None:
         code = _complain("interrupted", 130)
     except Exception as reason:  # usage errors of the parser, which carry their own message
         if not hasattr(reason, "format_message"):
-            raise
+            if os.environ.get("WAKEFLIGHT_TRACEBACK"):
+                raise
+            sys.exit(_complain(_unforeseen(reason), 1))
         message = reason.format_message()
         if type(reason).__name__.startswith("NoArgsIsHelp"):  # the message is the help text
             print(message, file=sys.stderr)
@@ -86,6 +107,14 @@ def main(arguments: list[str] | None = None) -> None:
         else:
             code = _complain(message, 2)
     sys.exit(code if isinstance(code, int) else 0)
+
+
+def _unforeseen(reason: Exception) -> str:
+    """An error that no part of the program foresaw, in one line with its place."""
+    place = traceback.extract_tb(reason.__traceback__)[-1]
+    at = f"{Path(place.filename).name}, line {place.lineno}"
+    told = f"{type(reason).__name__}: {shortened(one_line(reason), 200)}"
+    return f"a fault of the program, not of the input ({told}; {at}); please report it, with WAKEFLIGHT_TRACEBACK=1 set for more"
 
 
 def _complain(message: str, code: int) -> int:

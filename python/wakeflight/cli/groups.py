@@ -82,6 +82,9 @@ FigureFormat = Annotated[
         autocompletion=offered("png", "svg", "pdf"),
     ),
 ]
+AllowOutside = Annotated[
+    bool, typer.Option("--allow-outside", help="read tables elsewhere than beside the aircraft or rotor file, or below")
+]
 
 
 class Group:
@@ -100,6 +103,7 @@ class Vehicle(Group):
     aircraft: AircraftName = "uh60a"
     loading: Annotated[str | None, told("--loading", "named mass and c.g. of the aircraft file", OF_AIRCRAFT)] = None
     condition: Annotated[str | None, told("--condition", "named condition of the aircraft file", OF_AIRCRAFT)] = None
+    allow_outside: AllowOutside = False
 
 
 @dataclass(frozen=True)

@@ -87,7 +87,7 @@ def cost(runs: Mapping[str, xr.Dataset]) -> Figure:
     left = np.zeros(len(names))
     for phase, color in zip(PHASES, style.COLORS, strict=False):
         seconds = np.array([float(runs[name].attrs.get(f"seconds_{phase}", 0.0)) for name in names])
-        axes.barh(names, seconds, left=left, color=color, label=phase, height=0.6)
+        axes.barh([style.plain(name) for name in names], seconds, left=left, color=color, label=phase, height=0.6)
         left += seconds
     for y, total in enumerate(left):
         axes.text(total, y, f" {total:.1f} s", va="center", fontsize=8)

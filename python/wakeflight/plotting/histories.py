@@ -47,7 +47,7 @@ class Panel:
 
 def as_mapping(runs: Runs) -> Mapping[str, xr.Dataset]:
     """Several runs by name; a single dataset becomes one run without a name."""
-    return by_name(runs, "")
+    return {style.plain(name): run for name, run in by_name(runs, "").items()}
 
 
 def seconds_per_revolution(run: xr.Dataset) -> float:

@@ -96,6 +96,12 @@ def save(figure: Figure, path: str | Path) -> Path:
     return path
 
 
+def plain(name: str) -> str:
+    """A name as text of a figure: what would be read as a formula, or as a line to be left out of the legend, is not."""
+    text = name.replace("$", r"\$")
+    return f" {text}" if text.startswith("_") else text
+
+
 def least_span(axes: Axes, span: float) -> None:
     """Widen the vertical axis to at least `span`: what hardly changes should look as if it hardly changes."""
     low, high = axes.get_ylim()

@@ -132,7 +132,7 @@ def transient(data: xr.Dataset) -> Figure:
     for axes in panels[-1]:
         axes.set_xlabel("revolutions")
     a = data.attrs
-    figure.suptitle(f"{a['aircraft']}, {a['inflow_model']}: a collective that moves")
+    figure.suptitle(f"{style.plain(a['aircraft'])}, {a['inflow_model']}: a collective that moves")
     return figure
 
 
@@ -150,4 +150,4 @@ def write(data: xr.Dataset, folder: Path, figure_format: str = "png") -> list[Pa
 def _title(data: xr.Dataset) -> str:
     a = data.attrs
     averaged = f", mean of {a['averaged']} revolutions" if a["averaged"] else ""
-    return f"{a['aircraft']}, {a['inflow_model']}{averaged}: $C_T$ = {data.ct.item():.5f}, μ = {data.mu.item():.3f}"
+    return f"{style.plain(a['aircraft'])}, {a['inflow_model']}{averaged}: $C_T$ = {data.ct.item():.5f}, μ = {data.mu.item():.3f}"

@@ -70,7 +70,8 @@ def data(runs: Mapping[str, Mapping[str, xr.Dataset]], rotor: Mapping[str, float
         "colours": [matplotlib.colors.to_hex(c) for c in matplotlib.colormaps["plasma"](np.linspace(0.0, 0.92, 64))],
         "maneuvers": maneuvers,
     }
-    return json.dumps(payload, allow_nan=False)
+    # it stands in a page: no text in it ends its element
+    return json.dumps(payload, allow_nan=False).replace("<", "\\u003c")
 
 
 def _moments(models: Mapping[str, xr.Dataset]) -> np.ndarray:

@@ -14,8 +14,8 @@ from ...export import vtk
 from ...plotting.style import save
 from ...report import viewer
 from ...report.summary import configuration, counters, summary, warnings
-from . import cost, extras
-from .cases import MANEUVERS, MODELS
+from . import cost, extras, readings
+from .cases import AUGMENTED, MANEUVERS, MODELS
 from .figures import FIGURES
 from .statements import VERDICTS, counts, judge
 
@@ -51,14 +51,16 @@ def write(
     """
     from jinja2 import ChoiceLoader, Environment, PackageLoader, StrictUndefined
 
-    flights = {maneuver: {model: runs[f"{maneuver}/{model}"] for model in MODELS} for maneuver in MANEUVERS}
-    table = judge(runs)
+    shown = (*MANEUVERS, AUGMENTED)
+    flights = {maneuver: {model: runs[f"{maneuver}/{model}"] for model in MODELS} for maneuver in shown}
+    table, both = judge(runs), readings.judged(runs)
     figures = [_draw(f.name, f.caption, lambda f=f: f.draw(flights[f.maneuver]), out_dir) for f in FIGURES]
     figures.insert(0, _draw("figure-02", extras.SEQUENCE_CAPTION, lambda: extras.sequence(runs), out_dir))
     beyond = {
         "convergence": _draw("convergence", extras.CONVERGENCE_CAPTION, lambda: extras.convergence(runs), out_dir),
         "inflow-mean": _draw("inflow-mean", extras.INFLOW_CAPTION, lambda: extras.inflow(runs), out_dir),
         "caps": _draw("relaxation-caps", extras.CAPS_CAPTION, lambda: extras.caps(runs), out_dir),
+        "readings": _draw("readings", readings.CAPTION, lambda: readings.figure(runs), out_dir),
     }
     export(flights, out_dir / "paraview")
     environment = Environment(
@@ -74,10 +76,13 @@ def write(
         statements=table,
         verdicts=VERDICTS,
         counts=counts(table),
+        readings=both,
+        readings_head=readings.HEAD,
+        readings_counts=[*readings.counted(both), *readings.motion(runs)],
         figures=figures,
         beyond=beyond,
-        summaries={m: _side_by_side(summary, flights[m]) for m in MANEUVERS},
-        work={m: _side_by_side(counters, flights[m]) for m in MANEUVERS},
+        summaries={m: _side_by_side(summary, flights[m]) for m in shown},
+        work={m: _side_by_side(counters, flights[m]) for m in shown},
         warnings=sorted({text for run in runs.values() for text in warnings(run)}),
         models=list(MODELS),
         cost_head=cost.HEAD,
