@@ -23,7 +23,7 @@ ROOMS = {
     "validate": ("validate",),
     "report": ("report",),
     "plotting": ("plotting",),
-    "export": ("export",),
+    "export": ("export", "acoustics"),
     "linear": ("linear", "handling"),
     "flight": ("flight*", "recorder", "simulation", "stepping", "snapshot", "integrators"),
     "tunnel": ("tunnel",),

@@ -59,7 +59,7 @@ API: dict[str, tuple[str, ...]] = {
     "A rotor on a stand": ("tunnel", "Tunnel"),
     "Blades, sections, vortices, wings": ("blade_modes", "airfoil_loop", "induced_velocity", "wing", "Wing"),
     "Studies": ("converge",),
-    "Results": ("export", "bibtex"),
+    "Results": ("export", "noise", "export_wopwop", "bibtex"),
     "Errors": ("WakeflightError", "InputError", "NumericalFailure"),
 }
 """The public interface by topic; names that are in none come last."""

@@ -17,6 +17,7 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from .acoustics import noise
     from .aircraft import Aircraft, Rotor, load_aircraft, load_rotor
     from .airfoil_loop import airfoil_loop
     from .condition import FlightCondition, condition_for
@@ -36,7 +37,7 @@ if TYPE_CHECKING:
         load_control,
     )
     from .errors import InputError, NumericalFailure, WakeflightError
-    from .export import export
+    from .export import export, export_wopwop
     from .file_schemas import file_schema
     from .flight import Flight, fly
     from .handling import HandlingQualities, handling_qualities
@@ -54,6 +55,7 @@ if TYPE_CHECKING:
     from .wing import Wing, wing
 
 _HOME = {
+    "noise": "acoustics",
     "Aircraft": "aircraft",
     "load_aircraft": "aircraft",
     "Rotor": "aircraft",
@@ -79,6 +81,7 @@ _HOME = {
     "NumericalFailure": "errors",
     "WakeflightError": "errors",
     "export": "export",
+    "export_wopwop": "export",
     "file_schema": "file_schemas",
     "Flight": "flight",
     "fly": "flight",
@@ -146,6 +149,7 @@ __all__ = [
     "condition_for",
     "converge",
     "export",
+    "export_wopwop",
     "file_schema",
     "fly",
     "follow",
@@ -158,6 +162,7 @@ __all__ = [
     "load_control",
     "load_maneuver",
     "load_rotor",
+    "noise",
     "roll_reversal",
     "trim",
     "tunnel",

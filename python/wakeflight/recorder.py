@@ -254,7 +254,7 @@ class Recorder:
             "radius": model.rotor["radius"],
             "omega": model.omega,
             "blade_modes": mode_labels(start.aircraft),
-            "geometry": json.dumps(start.aircraft.geometry),
+            "geometry": json.dumps(start.aircraft.geometry | _sections(model)),
             "configuration": configuration,
             "condition": start.condition.as_attributes(),
             "ct": mean["ct"],
@@ -263,6 +263,23 @@ class Recorder:
             "power": mean["power"],
             "revolutions": (self.n_recorded - 1) / model.steps_per_revolution,
         }
+
+
+def _sections(model: Model) -> dict[str, Any]:
+    """What forces are made from by their coefficients: chord, width and lifting width of the blade elements [m], the air."""
+    rotor = model.rotor
+    widths = np.array(rotor["widths"], dtype=float)
+    # a free wake has its own loss at the tip; with dynamic inflow nothing lifts beyond the factor
+    factor = float(model.aircraft.rotor.tip_loss_factor) if model.inflow.is_dynamic else 1.0
+    inner = model.stations - 0.5 * widths
+    lifting = np.clip(factor * rotor["radius"] - inner, 0.0, widths)
+    return {
+        "chords": [float(each) for each in rotor["chords"]],
+        "widths": widths.tolist(),
+        "lifting": lifting.tolist(),
+        "density": float(model.density),
+        "speed_of_sound": float(model.speed_of_sound),
+    }
 
 
 def check_sample(

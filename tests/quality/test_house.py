@@ -42,7 +42,7 @@ PYTHON_ORDER = (
     {"presets"},
     {"condition", "inflow", "maneuvers", "wing", "monitors", "snapshot", "rotor_speed"},
     {"aircraft", "thinning"},
-    {"model", "modes", "airfoil_loop", "file_schemas"},
+    {"model", "modes", "airfoil_loop", "file_schemas", "acoustics"},
     {"integrators", "exchange"},
     {"trim", "stepping"},
     {"simulation"},

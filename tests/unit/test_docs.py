@@ -20,7 +20,13 @@ BLOCK = re.compile(
     re.M | re.S,
 )
 SHOWN = {"", "text", "matlab", "rust"}
-SLOW = {"README.md", "docs/guides/stand.md", "docs/guides/stepping.md", "docs/numerics/full-span-wake.md"}
+SLOW = {
+    "README.md",
+    "docs/guides/control.md",
+    "docs/guides/stand.md",
+    "docs/guides/stepping.md",
+    "docs/numerics/full-span-wake.md",
+}
 """Pages whose blocks fly free wakes."""
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
 

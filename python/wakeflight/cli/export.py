@@ -13,7 +13,7 @@ from .groups import Out, offered
 from .outcome import folder_made
 from .request import writable
 
-FORMATS = ("vtk", "mat", "csv", "netcdf3")
+FORMATS = ("vtk", "mat", "csv", "netcdf3", "wopwop")
 
 
 def export(

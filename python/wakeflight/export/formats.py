@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..errors import InputError
-from . import matlab, older, tables, vtk
+from . import matlab, older, tables, vtk, wopwop
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -24,6 +24,10 @@ FORMATS: dict[str, tuple[str, Callable[[xr.Dataset, Path], Path]]] = {
         "NetCDF-3, for readers older than NetCDF-4",
         lambda data, folder: older.write(data, folder / "run-netcdf3.nc"),
     ),
+    "wopwop": (
+        "PSU-WOPWOP: the blades' lift along lines, for loading noise",
+        lambda data, folder: wopwop.export_wopwop(data, folder),
+    ),
 }
 """What each format is for, and what writes it into a folder."""
 
@@ -32,7 +36,7 @@ def export(data: xr.Dataset, folder: str | Path, to: str = "vtk") -> Path:
     """Write a result for another program into `folder`; returns the file to open.
 
     data: Dataset of a flight, a trim or a stand (`flight.data`, `start.to_dataset()`, `wf.results.load(path)`). to: a name of
-    `FORMATS`: `vtk`, `mat`, `csv`, `netcdf3`. Acoustics has a verb of its own, `wf.export_wopwop`.
+    `FORMATS`: `vtk`, `mat`, `csv`, `netcdf3`, `wopwop`; `wf.export_wopwop` takes revolutions and observers too.
     """
     if to not in FORMATS:
         raise InputError.choice("to", to, FORMATS)
