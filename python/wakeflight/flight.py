@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .engine import Engine
 from .errors import InputError, NumericalFailure
 from .flight_monitors import monitors
 from .inflow import InflowModel
@@ -115,7 +116,7 @@ def fly(
     progress: Progress | Silent | None = None,
     rtol: float = RTOL,
     stabilator: str = "held",
-    rotor_speed: RotorSpeed = CONSTANT,
+    rotor_speed: RotorSpeed | Engine = CONSTANT,
 ) -> Flight:
     """Fly `maneuver` from `start`.
 
@@ -124,8 +125,10 @@ def fly(
     rtol: relative tolerance of the solver, its absolute ones go with it.
     stabilator: `held` at its trim incidence, or `scheduled`, following its schedule within the rate of its servo.
     rotor_speed: `constant`, or pairs (time, share of the nominal speed) such as `[("0.5 s", 1.0), ("1.5 s", 0.95)]`, linear
-    between them and steady after the last; with dynamic inflow. The tail rotor is geared to the main rotor; a coupling step stays
-    a step of azimuth; coefficients and inflow are counted at the nominal speed.
+    between them and steady after the last; `governed`, azimuth and speed as states, held by the engines' governor; `free`, the
+    same with the torque of the trim; or an `Engine`, such as `wf.GovernedEngine(failure="1 s")`. With dynamic inflow. The tail
+    rotor is geared to the main rotor; a coupling step stays a step of azimuth, so that times are not equidistant; coefficients
+    and inflow are counted at the nominal speed. The flight has the revolutions that its duration has at the speed it begins at.
 
     inflow: name or model, by default time-marching from a trim on a free wake, dynamic from a dynamic one. Wake options that
     depend on the regime (turns kept, far wake, relaxation) stay those of the trimmed condition for the whole flight, whatever

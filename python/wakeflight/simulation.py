@@ -8,6 +8,7 @@ one step of azimuth; states, circulation and hub motion go to the wake; the wake
 
 from __future__ import annotations
 
+import copy
 import hashlib
 import json
 import time
@@ -18,6 +19,7 @@ from typing import Any
 
 import numpy as np
 
+from .engine import Engine, Turning, turning
 from .errors import InputError, NumericalFailure
 from .exchange import Exchange, exchange_of
 from .inflow import InflowModel, inflow_model, like
@@ -25,7 +27,7 @@ from .integrators import INTEGRATORS
 from .maneuvers import STICKS
 from .model import Model, flight_regime
 from .progress import Progress, Silent
-from .rotor_speed import CONSTANT, RotorSpeed, history
+from .rotor_speed import CONSTANT, RotorSpeed
 from .snapshot import Snapshot
 from .stepping import Stepping
 from .trim import INCH, Trim
@@ -112,12 +114,13 @@ class Simulation(Stepping):
         *,
         rtol: float = RTOL,
         stabilator: str = "held",
-        rotor_speed: RotorSpeed = CONSTANT,
+        rotor_speed: RotorSpeed | Engine = CONSTANT,
         progress: Progress | Silent | None = None,
     ):
         if control is not None:
             raise InputError.of("control", control, "allowed: None, sticks come with every step")
-        self._prepare(start, flight_model(start, inflow, rotor_speed), integrator, rtol, stabilator)
+        turned = turning(rotor_speed)
+        self._prepare(start, flight_model(start, inflow, turned), integrator, rtol, stabilator, turned)
         self.converge(progress or Silent())
 
     @classmethod
@@ -128,18 +131,21 @@ class Simulation(Stepping):
         integrator: str,
         rtol: float,
         stabilator: str,
-        rotor_speed: RotorSpeed = CONSTANT,
+        rotor_speed: RotorSpeed | Engine = CONSTANT,
     ) -> Simulation:
         """A simulation that has been checked; `converge` must follow."""
         sim = cls.__new__(cls)
-        sim._prepare(start, flight_model(start, inflow, rotor_speed), integrator, rtol, stabilator)
+        turned = turning(rotor_speed)
+        sim._prepare(start, flight_model(start, inflow, turned), integrator, rtol, stabilator, turned)
         return sim
 
     def converge(self, progress: Progress | Silent) -> None:
         """Start the exchange; a marching wake goes through its convergence phase."""
         self.exchange, self.phase = begun(self.model, self.start, progress)
 
-    def _prepare(self, start: Trim, model: Model, integrator: str, rtol: float, stabilator: str) -> None:
+    def _prepare(
+        self, start: Trim, model: Model, integrator: str, rtol: float, stabilator: str, turned: Turning
+    ) -> None:
         """Everything but the exchange."""
         if integrator not in INTEGRATORS:
             raise InputError.of("integrator", integrator, f"allowed: {', '.join(INTEGRATORS)}")
@@ -148,8 +154,29 @@ class Simulation(Stepping):
         self.start = start
         self.integrator, self.rtol, self.stabilator = integrator, rtol, stabilator
         solver = INTEGRATORS[integrator](model, rtol, atol_scale=rtol / RTOL)
-        self._begin(model, solver, start.state(0.0), self._asked(None))
+        # the states of a flight may be more than those of its trim
+        y = model.core.trim_state(start.problem, start.x, 0.0)[0] if model.has_free_speed else start.state(0.0)
+        self._begin(model, solver, y, self._asked(None))
         self._incidence = start.stabilator_incidence
+        self.turning, self.engine = turned, copy.deepcopy(turned.engine)
+        if self.engine is not None:
+            self.engine.begin(start.mean_outputs()["power"] / model.omega, model.omega)
+            self._drive()
+
+    def _drive(self) -> None:
+        """What the engines give over the step that begins."""
+        collective = float(self._stick[STICKS.index("collective")])
+        speed = float(self._y[self.model.layout["turn"][0] + 1])
+        self._engine = self.engine.given(self.t, self.delta_t, speed, collective)
+
+    def _turned(self, t: float) -> None:
+        """The clock follows the rotor, the engines it and the stick."""
+        if self.engine is None:
+            return
+        azimuth = self.model.layout["turn"][0]
+        turn = (float(self._y[azimuth]), float(self._y[azimuth + 1]), float(self.solver.rate[azimuth + 1]))
+        self.clock.reach(self._step, t, turn)
+        self._drive()
 
     @property
     def state(self) -> State:
@@ -166,7 +193,7 @@ class Simulation(Stepping):
     @property
     def loads(self) -> dict[str, Any]:
         """Loads and section values at this moment with the sticks where they are, as a run records them."""
-        inputs, _ = self._inputs(self._stick, np.zeros(4))
+        inputs, _ = self._inputs(self.t, self._stick, np.zeros(4))
         y_dot = self.model.core.consistent_rate(self.t, self._y, inputs)
         return self.model.core.outputs(self.t, self._y, y_dot, inputs)
 
@@ -211,7 +238,10 @@ class Simulation(Stepping):
             "step": self._step,
             "stick": self._stick.tolist(),
             "stabilator": self._incidence,
+            **self.clock.memory(),
         }
+        if self.engine is not None:
+            scalars |= {"engine": list(self._engine), "engine_memory": self.engine.memory()}
         parts = {
             "y": np.asarray(self._y, "<f8").tobytes(),
             "integrator": self.solver.memory(),
@@ -228,10 +258,15 @@ class Simulation(Stepping):
             raise InputError.of("snapshot", kind, "must be what Simulation.snapshot returned") from reason
         exchange = Exchange.unpacked(self.model, snapshot.parts["exchange"])
         y = np.frombuffer(snapshot.parts["y"], "<f8").copy()
+        self.clock.recall(snapshot.scalars)
         self.solver.recall(self.clock.time(snapshot.step), y, snapshot.parts["integrator"])
         self.exchange, self._y, self._step = exchange, y, snapshot.step
         self._stick = np.array(snapshot.scalars["stick"])
         self._incidence = snapshot.scalars["stabilator"]
+        if self.engine is not None:
+            torque, fuel = snapshot.scalars["engine"]
+            self._engine = (torque, fuel)
+            self.engine.recall(snapshot.scalars["engine_memory"])
 
     @cached_property
     def configuration(self) -> dict[str, str]:
@@ -246,13 +281,13 @@ class Simulation(Stepping):
             "inflow": str(model.inflow),
             "integrator": f"{self.integrator}, rtol {self.rtol!r}",
             "stabilator": self.stabilator,
-            "rotor speed": str(model.rotor_speed or CONSTANT),
+            "rotor speed": self.turning.name,
             "trim": hashlib.sha256(np.asarray(start.x, "<f8").tobytes()).hexdigest()[:16],
         }
 
     def __reduce__(self) -> tuple[Any, ...]:
         """By value: the trim, the configuration and a snapshot."""
-        own = (self.start, self.model, self.integrator, self.rtol, self.stabilator)
+        own = (self.start, self.model, self.integrator, self.rtol, self.stabilator, self.turning)
         return _revived, (own, self.phase, self.seconds, self.snapshot())
 
     def _rows(self) -> list[tuple[str, str]]:
@@ -283,7 +318,10 @@ class Simulation(Stepping):
 
 
 def _revived(
-    own: tuple[Trim, Model, str, float, str], phase: ConvergencePhase, seconds: dict[str, float], snapshot: Snapshot
+    own: tuple[Trim, Model, str, float, str, Turning],
+    phase: ConvergencePhase,
+    seconds: dict[str, float],
+    snapshot: Snapshot,
 ) -> Simulation:
     """A simulation from its parts, without its convergence phase."""
     sim = Simulation.__new__(Simulation)
@@ -293,9 +331,13 @@ def _revived(
     return sim
 
 
-def flight_model(start: Trim, inflow: str | InflowModel | None, rotor_speed: RotorSpeed = CONSTANT) -> Model:
-    """Model to fly with, its rotor at `rotor_speed`."""
-    return _trimmed_model(start, inflow).at_speed(history(rotor_speed))
+def flight_model(start: Trim, inflow: str | InflowModel | None, turned: Turning | None = None) -> Model:
+    """Model to fly with, its rotor turned as `turned` says, by default at constant speed."""
+    turned = turned or Turning()
+    model = _trimmed_model(start, inflow).at_speed(turned.corners)
+    if turned.engine is None:
+        return model
+    return model.driven(start.mean_outputs()["power"], turned.engine.governed)
 
 
 def _trimmed_model(start: Trim, inflow: str | InflowModel | None) -> Model:

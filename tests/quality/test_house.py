@@ -38,7 +38,7 @@ PYTHON_ORDER = (
     {"options"},
     {"presets"},
     {"condition", "inflow", "maneuvers", "wing", "monitors", "snapshot", "rotor_speed"},
-    {"aircraft", "thinning"},
+    {"aircraft", "thinning", "engine"},
     {"model", "modes", "airfoil_loop"},
     {"integrators", "exchange"},
     {"trim", "stepping"},

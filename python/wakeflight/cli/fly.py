@@ -4,7 +4,18 @@
 from __future__ import annotations
 
 from . import outcome
-from .groups import Blades, Condition, InflowName, Integrator, ManeuverName, Revolutions, Run, Vehicle, Wake
+from .groups import (
+    Blades,
+    Condition,
+    InflowName,
+    Integrator,
+    ManeuverName,
+    Revolutions,
+    RotorSpeedName,
+    Run,
+    Vehicle,
+    Wake,
+)
 from .request import check_flight, request
 
 
@@ -17,13 +28,14 @@ def fly(
     revolutions: Revolutions = None,
     wake: Wake,
     integrator: Integrator = "ida",
+    rotor_speed: RotorSpeedName = "constant",
     blades: Blades = None,
     run: Run,
 ) -> None:
     """Trim, fly a manoeuvre, write run.nc, figures and report.html."""
-    check_flight(revolutions, integrator)
+    check_flight(revolutions, integrator, rotor_speed)
     asked = request(vehicle, given, inflow, wake, run, maneuver, blades)
     from ..progress import Progress
 
     with Progress() as progress:
-        outcome.fly_once(asked, revolutions, integrator, asked.out, progress)
+        outcome.fly_once(asked, revolutions, integrator, asked.out, progress, rotor_speed)

@@ -21,6 +21,9 @@ AircraftName = Annotated[str, typer.Option("--aircraft", metavar="NAME|FILE", he
 InflowName = Annotated[str, typer.Option("--inflow", help="time-marching, relaxation, dynamic")]
 Revolutions = Annotated[float | None, typer.Option("--revolutions", help="revolutions to fly; the manoeuvre's own")]
 Integrator = Annotated[str, typer.Option("--integrator", help="ida, fixed")]
+RotorSpeedName = Annotated[
+    str, typer.Option("--rotor-speed", help="constant, governed by the engines, free with the torque of the trim")
+]
 Blades = Annotated[str | None, typer.Option("--blades", help="rigid, flexible; the aircraft's own")]
 Out = Annotated[Path | None, typer.Option("--out", help="folder for results")]
 
