@@ -40,6 +40,7 @@ ROOMS = {
         "presets",
         "regime",
         "rotor_speed",
+        "engine",
         "units",
         "sticks",
     ),

@@ -13,6 +13,7 @@ import numpy as np
 
 from .arguments import checked
 from .control import augmentation
+from .engine import Engine
 from .errors import InputError, NumericalFailure
 from .flight_monitors import monitors
 from .inflow import InflowModel
@@ -119,7 +120,7 @@ def fly(
     progress: Reported = None,
     rtol: float = RTOL,
     stabilator: str = "held",
-    rotor_speed: RotorSpeed = CONSTANT,
+    rotor_speed: RotorSpeed | Engine = CONSTANT,
     control: Any = None,
     actuators: Any = None,
 ) -> Flight:
@@ -130,8 +131,10 @@ def fly(
     rtol: relative tolerance of the solver, its absolute ones go with it.
     stabilator: `held` at its trim incidence, or `scheduled`, following its schedule within the rate of its servo.
     rotor_speed: `constant`, or pairs (time, share of the nominal speed) such as `[("0.5 s", 1.0), ("1.5 s", 0.95)]`, linear
-    between them and steady after the last; with dynamic inflow. The tail rotor is geared to the main rotor; a coupling step stays
-    a step of azimuth; coefficients and inflow are counted at the nominal speed.
+    between them and steady after the last; `governed`, azimuth and speed as states, held by the engines' governor; `free`, the
+    same with the torque of the trim; or an `Engine`, such as `wf.GovernedEngine(failure="1 s")`. With dynamic inflow. The tail
+    rotor is geared to the main rotor; a coupling step stays a step of azimuth, so that times are not equidistant; coefficients
+    and inflow are counted at the nominal speed. The flight has the revolutions that its duration has at the speed it begins at.
     control: what is between sticks and blades: a `wf.Controller`, a list of them or a `wf.Augmentation`; None is the manoeuvre's
     own, where its file has one; an empty list: nothing. actuators: servos behind the mixing unit, `generic` or `wf.Servos(...)`.
 

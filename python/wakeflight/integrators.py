@@ -201,7 +201,8 @@ class FixedIntegrator:
 
     def __init__(self, model: CompiledRotor, rtol: float = 1e-5, atol_scale: float = 1.0, parts: int = 1):
         self.model, self.rtol, self.parts = model, rtol, parts
-        self.explicit = not model.flexible
+        # a speed that is a state shares the inertia of blades and body
+        self.explicit = not (model.flexible or model.has_free_speed)
         self.atol = atol_scale * absolute_tolerances(model)
         self._solver: _core.FixedStep | None = None
         self._y: np.ndarray | None = None
@@ -280,7 +281,7 @@ INTEGRATORS = {"ida": IdaIntegrator, "fixed": FixedIntegrator}
 """Solvers by the name the command line uses."""
 
 
-TOLERANCES = {"m/s": 1e-5, "rad/s": 1e-6, "m": 1e-4, "1": 1e-6}
+TOLERANCES = {"m/s": 1e-5, "rad/s": 1e-6, "m": 1e-4, "1": 1e-6, "rad": 1e-6, "W": 1.0}
 """What does not matter in flight of a state, by its unit: attitude (quaternion) and inflow are numbers."""
 ANGLE = 1e-6
 """The same of a blade's modal coordinate, as an angle [rad]."""

@@ -17,7 +17,7 @@ from .errors import InputError
 from .inflow import InflowModel, RelaxationWake
 from .monitors import Bounds, bounds
 from .results import disk
-from .rotor_speed import Clock, Corners, clock_of
+from .rotor_speed import SHARES, Clock, Corners, FreeClock, clock_of
 from .units import STANDARD_GRAVITY
 
 ROLL, PITCH, YAW = 4, 5, 6
@@ -62,7 +62,9 @@ class CompiledRotor:
 
     @cached_property
     def clock(self) -> Clock:
-        """When the coupling steps are."""
+        """When the coupling steps are, before a flight; it has its own."""
+        if self.has_free_speed:
+            return FreeClock(self.omega, 2 * np.pi / self.steps_per_revolution)
         return clock_of(self.core, self.omega, self.steps_per_revolution, self.rotor_speed)
 
     @property
@@ -71,8 +73,15 @@ class CompiledRotor:
         return self.rotor["omega"] * self.rotor["radius"]
 
     @property
+    def has_free_speed(self) -> bool:
+        """Whether azimuth and speed of the rotor are states."""
+        return False
+
+    @property
     def top_share(self) -> float:
         """Highest speed of the rotor over its nominal one, at least 1: what its motion can give grows with it."""
+        if self.has_free_speed:
+            return SHARES[1]
         return max((1.0, *(share for _, share in self.rotor_speed)))
 
     @property
@@ -228,6 +237,8 @@ class Model(CompiledRotor):
     n_harmonics: int = 8
     rotor_speed: Corners = ()
     """Time [s] and share of the nominal rotor speed; none at constant speed."""
+    drive: str = ""
+    """Drive train of a rotor whose speed is a state, as the core reads it (JSON); empty where the speed is given."""
     n_controls: ClassVar[int] = 4
 
     @classmethod
@@ -303,11 +314,28 @@ class Model(CompiledRotor):
     def __reduce__(self) -> tuple[Any, ...]:
         """Compiled anew where it is needed."""
         built = (self.aircraft, self.condition, self.inflow, self.target, self.n_harmonics)
-        return _rebuilt, (built, self.rotor_speed)
+        return _rebuilt, (built, self.rotor_speed, self.drive)
 
     def at_speed(self, corners: Corners) -> Model:
         """This model with a rotor speed in time."""
         return at_speed(self, corners)
+
+    @property
+    def has_free_speed(self) -> bool:
+        """Whether azimuth and speed of the rotor are states."""
+        return bool(self.drive)
+
+    def driven(self, power: float, governed: bool) -> Model:
+        """This model with azimuth and speed as states, engines in balance at `power` [W], held by the governor or not."""
+        inertia, of_hub = self.aircraft.drive_inertia
+        gains, lag = self.aircraft.governor if governed else ((), 0.0)
+        governor = {"power": power, "gains": gains, "lag": lag} if governed else None
+        return self._driven_by(json.dumps({"inertia": inertia, "hub_inertia": of_hub, "governor": governor}))
+
+    def _driven_by(self, drive: str) -> Model:
+        if not drive:
+            return self
+        return replace(self, core=self.core.with_drive(drive), drive=drive)
 
     @property
     def rotor_tables(self) -> dict[str, Any]:
@@ -329,6 +357,6 @@ class Model(CompiledRotor):
         return self.data["accessory_power"]
 
 
-def _rebuilt(built: tuple[Any, ...], corners: Corners) -> Model:
+def _rebuilt(built: tuple[Any, ...], corners: Corners, drive: str) -> Model:
     """A model compiled anew of what `Model.build` takes."""
-    return Model.build(*built).at_speed(corners)
+    return Model.build(*built).at_speed(corners)._driven_by(drive)

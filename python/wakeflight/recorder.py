@@ -15,7 +15,6 @@ from .maneuvers import Maneuver
 from .model import Model
 from .modes import mode_labels
 from .monitors import Monitor, Places, rotor, variables
-from .rotor_speed import shares
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -25,6 +24,8 @@ if TYPE_CHECKING:
 
 SNAPSHOTS_PER_REVOLUTION = 4
 LARGEST_SHEET = 5_000_000  # numbers; larger lattices of full-span wakes are not kept
+SOMETIMES = ("load_power", "vortex_blade_distance", "rotor_speed", "torque")
+"""Numbers of every instant that a run does not keep, or not always."""
 STATION_FIELDS = ("inflow", "circulation", "cl", "cl_m2", "alpha", "mach")
 
 
@@ -35,6 +36,7 @@ class Recorder:
         self.model, self.start, self.maneuver = sim.model, sim.start, maneuver
         model = sim.model
         self.exchange, self.phase = sim.exchange, sim.phase
+        self.turning = sim.turning.name
         self.n_recorded = 0
         n, blades, stations = n_steps + 1, model.n_blades, model.stations.size
         self.time = np.empty(n)
@@ -58,6 +60,8 @@ class Recorder:
                 "vortex_blade_distance",
                 "energy",
                 "load_power",
+                "rotor_speed",
+                "torque",
             )
         }
         self.blade_angles = {name: np.empty((n, blades)) for name in ("flap", "lead")}
@@ -93,6 +97,7 @@ class Recorder:
         self.scalars["odd_even"][step] = monitors["odd_even"]
         self.scalars["max_displacement"][step] = monitors["max_displacement"] * self.model.rotor["radius"]
         self.scalars["vortex_blade_distance"][step] = monitors["vortex_blade_distance"]
+        self.scalars["rotor_speed"][step], self.scalars["torque"][step] = out["rotor_speed"], out["engine_torque"]
         self.scalars["energy"][step], self.scalars["load_power"][step] = out["energy"], out["load_power"]
         if step % (self.model.steps_per_revolution // SNAPSHOTS_PER_REVOLUTION) == 0:
             self._keep_wake(step)
@@ -140,10 +145,12 @@ class Recorder:
         for kind in ("force", "moment"):
             arrays |= dict(zip((f"{kind}_x", f"{kind}_y", f"{kind}_z"), self.loads[kind][:n].T, strict=True))
         arrays |= {name: values[:n] for name, values in self.blade.items()}
-        arrays |= {name: values[:n] for name, values in self.scalars.items() if name != "load_power"}
-        del arrays["vortex_blade_distance"]
-        if model.rotor_speed:
+        arrays |= {name: values[:n] for name, values in self.scalars.items() if name not in SOMETIMES}
+        if model.rotor_speed or model.has_free_speed:
             arrays["rotor_speed"] = self.rotor_speed
+        if model.has_free_speed:
+            arrays["torque"] = self.scalars["torque"][:n]
+            arrays["power_engine"] = arrays["torque"] * self.rotor_speed
         arrays["energy_balance"] = self.energy_balance()
         arrays |= variables(monitors)
         arrays |= {name: values[:n] for name, values in self.blade_angles.items()}
@@ -177,7 +184,7 @@ class Recorder:
     @property
     def rotor_speed(self) -> np.ndarray:
         """Speed of the rotor (time,) [rad/s]."""
-        return self.model.omega * shares(self.model.rotor_speed, self.time[: self.n_recorded])
+        return self.scalars["rotor_speed"][: self.n_recorded]
 
     def vortex_distance(self) -> np.ndarray | None:
         """Smallest distance of a tip vortex from a blade (time,), in core radii; None where the wake does not tell it."""
@@ -238,6 +245,7 @@ class Recorder:
             "trim_inflow": start.inflow.name,
             **({"rotor_speed": [list(corner) for corner in model.rotor_speed]} if model.rotor_speed else {}),
             **({} if self.control.nothing else {"control": self.control.described()}),
+            **({"rotor_speed": self.turning, "drive": json.loads(model.drive)} if model.drive else {}),
             "maneuver": {
                 "name": self.maneuver.name,
                 "adapted": list(self.maneuver.adapted),

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_left, bisect_right
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol, TypeVar
 
@@ -92,9 +92,39 @@ class Clock(Protocol):
     def cut(self, pieces: list[tuple[float, float]]) -> list[tuple[float, float]]:
         """Intervals of time cut where the rate of the speed jumps."""
 
+    def own(self) -> Clock:
+        """The clock of one flight: where it keeps something, a new one."""
+
+    def reach(self, step: int, t: float, turn: tuple[float, float, float]) -> None:
+        """A flight has reached `step` at `t` [s]; turn: azimuth [rad], speed [rad/s], its rate, of a free speed."""
+
+    def memory(self) -> dict[str, Any]:
+        """What it keeps."""
+
+    def recall(self, memory: Mapping[str, Any]) -> None:
+        """Go on from what it kept."""
+
+
+class _Stateless:
+    """A clock that keeps nothing: its times follow from the steps."""
+
+    def own(self) -> Any:
+        """Itself."""
+        return self
+
+    def reach(self, step: int, t: float, turn: tuple[float, float, float]) -> None:
+        """Nothing to keep."""
+
+    def memory(self) -> dict[str, Any]:
+        """Nothing."""
+        return {}
+
+    def recall(self, memory: Mapping[str, Any]) -> None:
+        """Nothing."""
+
 
 @dataclass(frozen=True)
-class SteadyClock:
+class SteadyClock(_Stateless):
     """Of a constant speed: times are steps times the length of one, never a sum."""
 
     delta_t: float
@@ -116,7 +146,7 @@ class SteadyClock:
         return pieces
 
 
-class HistoryClock:
+class HistoryClock(_Stateless):
     """Of a speed that changes: the times at which `core` has turned by whole steps of `delta_psi` [rad]."""
 
     def __init__(self, core: Turning, delta_psi: float, corners: Corners):
@@ -144,6 +174,67 @@ class HistoryClock:
             ends = [t0, *self.corners[first : bisect_left(self.corners, t1 - ROUNDING)], t1]
             found += zip(ends[:-1], ends[1:], strict=True)
         return found
+
+
+class FreeClock:
+    """Of a speed that is a state: a step lasts until the rotor, at the rate of its speed where the step begins, has turned by it.
+
+    What that misses of a whole step, of third order in its length, the next one makes good: it is never a sum of errors.
+    """
+
+    def __init__(self, omega: float, delta_psi: float):
+        self.delta_psi = delta_psi
+        self._omega = omega
+        self._step, self._t = 0, 0.0
+        self._turn = (0.0, omega, 0.0)
+        self._last = delta_psi / omega
+
+    def own(self) -> FreeClock:
+        """A new one, at the start."""
+        return FreeClock(self._omega, self.delta_psi)
+
+    def reach(self, step: int, t: float, turn: tuple[float, float, float]) -> None:
+        """Begin the step after `step` at `t`."""
+        self._last, self._step, self._t, self._turn = t - self._t, step, t, turn
+
+    def _ahead(self) -> float:
+        """Length of the step that begins [s]."""
+        azimuth, omega, rate = self._turn
+        left = (self._step + 1) * self.delta_psi - azimuth
+        # the root that does not cancel
+        squared = omega * omega + 2.0 * rate * left
+        if not (omega > 0.0 and squared > 0.0 and left > 0.0):
+            raise ArithmeticError(f"the rotor stops at t = {self._t:.4f} s: {omega:.4g} rad/s, {rate:.4g} rad/s2")
+        return 2.0 * left / (omega + math.sqrt(squared))
+
+    def time(self, step: Time) -> Time:
+        """Time [s] after `step` steps: exact for the present one and the next, beyond them at the present speed."""
+        ahead = step - self._step
+        if np.ndim(step) == 0 and ahead in (0, 1):
+            return self._t + self._ahead() if ahead else self._t
+        return self._t + ahead * (self.delta_psi / self._turn[1])
+
+    def duration(self, step: int) -> float:
+        """Length [s] of the step that begins after `step` steps: of the present one or of the last."""
+        return self._last if step < self._step else self._ahead()
+
+    def steps(self, step: int, seconds: float) -> float:
+        """How many steps `seconds` [s] are at the present speed."""
+        return seconds * self._turn[1] / self.delta_psi
+
+    def cut(self, pieces: list[tuple[float, float]]) -> list[tuple[float, float]]:
+        """The intervals as they are."""
+        return pieces
+
+    def memory(self) -> dict[str, Any]:
+        """Time, turn, length of the last step."""
+        return {"time": self._t, "turn": list(self._turn), "last_step": self._last}
+
+    def recall(self, memory: Mapping[str, Any]) -> None:
+        """Go on from there."""
+        azimuth, omega, rate = memory["turn"]
+        self._step, self._t, self._last = memory["step"], memory["time"], memory["last_step"]
+        self._turn = (azimuth, omega, rate)
 
 
 def clock_of(core: Turning, omega: float, steps_per_revolution: int, corners: Corners) -> Clock:

@@ -8,6 +8,7 @@ one step of azimuth; states, circulation and hub motion go to the wake; the wake
 
 from __future__ import annotations
 
+import copy
 import hashlib
 import json
 import time
@@ -21,13 +22,14 @@ import numpy as np
 from . import _core
 from .arguments import checked
 from .control import Augmentation, Chain, Sensors, augmentation
+from .engine import Engine, Turning, turning
 from .errors import InputError, NumericalFailure
 from .exchange import Exchange, exchange_of
 from .inflow import InflowModel, inflow_model, like
 from .integrators import INTEGRATORS
 from .model import Model, flight_regime
 from .progress import Progress, Reported, Silent, heard
-from .rotor_speed import CONSTANT, RotorSpeed, history, shares
+from .rotor_speed import CONSTANT, RotorSpeed, shares
 from .snapshot import Snapshot
 from .stepping import Instant, Stepping
 from .sticks import STICKS, Ramp, StickPath
@@ -97,12 +99,12 @@ class Simulation(Stepping):
         *,
         rtol: float = RTOL,
         stabilator: str = "held",
-        rotor_speed: RotorSpeed = CONSTANT,
+        rotor_speed: RotorSpeed | Engine = CONSTANT,
         actuators: Any = None,
         progress: Reported = None,
     ):
-        made = augmentation(control, actuators)
-        self._prepare(start, flight_model(start, inflow, rotor_speed), integrator, rtol, stabilator, made)
+        turned, made = turning(rotor_speed), augmentation(control, actuators)
+        self._prepare(start, flight_model(start, inflow, turned), integrator, rtol, stabilator, turned, made)
         self.converge(heard(progress))
 
     @classmethod
@@ -113,13 +115,13 @@ class Simulation(Stepping):
         integrator: str,
         rtol: float,
         stabilator: str,
-        rotor_speed: RotorSpeed = CONSTANT,
+        rotor_speed: RotorSpeed | Engine = CONSTANT,
         control: Augmentation | None = None,
     ) -> Simulation:
         """A simulation that has been checked; `converge` must follow."""
         sim = cls.__new__(cls)
-        made = augmentation(control)
-        sim._prepare(start, flight_model(start, inflow, rotor_speed), integrator, rtol, stabilator, made)
+        turned, made = turning(rotor_speed), augmentation(control)
+        sim._prepare(start, flight_model(start, inflow, turned), integrator, rtol, stabilator, turned, made)
         return sim
 
     def converge(self, progress: Progress | Silent) -> None:
@@ -127,7 +129,14 @@ class Simulation(Stepping):
         self.exchange, self.phase = begun(self.model, self.start, progress)
 
     def _prepare(
-        self, start: Trim, model: Model, integrator: str, rtol: float, stabilator: str, control: Augmentation
+        self,
+        start: Trim,
+        model: Model,
+        integrator: str,
+        rtol: float,
+        stabilator: str,
+        turned: Turning,
+        control: Augmentation,
     ) -> None:
         """Everything but the exchange."""
         if integrator not in INTEGRATORS:
@@ -140,8 +149,29 @@ class Simulation(Stepping):
         self.control = control
         self.chain = None if control.nothing else Chain(control, start)
         solver = INTEGRATORS[integrator](model, rtol, atol_scale=rtol / RTOL)
-        self._begin(model, solver, start.state(0.0), self._asked(None))
+        # the states of a flight may be more than those of its trim
+        y = model.core.trim_state(start.problem, start.x, 0.0)[0] if model.has_free_speed else start.state(0.0)
+        self._begin(model, solver, y, self._asked(None))
         self._incidence = start.stabilator_incidence
+        self.turning, self.engine = turned, copy.deepcopy(turned.engine)
+        if self.engine is not None:
+            self.engine.begin(start.mean_outputs()["power"] / model.omega, model.omega)
+            self._drive()
+
+    def _drive(self) -> None:
+        """What the engines give over the step that begins."""
+        collective = float(self._stick[STICKS.index("collective")])
+        speed = float(self._y[self.model.layout["turn"][0] + 1])
+        self._engine = self.engine.given(self.t, self.delta_t, speed, collective)
+
+    def _turned(self, t: float) -> None:
+        """The clock follows the rotor, the engines it and the stick."""
+        if self.engine is None:
+            return
+        azimuth = self.model.layout["turn"][0]
+        turn = (float(self._y[azimuth]), float(self._y[azimuth + 1]), float(self.solver.rate[azimuth + 1]))
+        self.clock.reach(self._step, t, turn)
+        self._drive()
 
     @property
     def state(self) -> State:
@@ -158,7 +188,7 @@ class Simulation(Stepping):
     @property
     def loads(self) -> dict[str, Any]:
         """Loads and section values at this moment with the sticks where they are, as a run records them."""
-        inputs, _ = self._inputs(self._stick, np.zeros(4))
+        inputs, _ = self._inputs(self.t, self._stick, np.zeros(4))
         y_dot = self.model.core.consistent_rate(self.t, self._y, inputs)
         return self.model.core.outputs(self.t, self._y, y_dot, inputs)
 
@@ -201,12 +231,15 @@ class Simulation(Stepping):
 
         def measure() -> tuple[np.ndarray, dict[str, Any]]:
             held, mean = self.exchange.held(self._step)
-            inputs = _core.Inputs(self.chain.reached, np.zeros(4), t, held, mean, self._incidence)
+            inputs = _core.Inputs(self.chain.reached, np.zeros(4), t, held, mean, self._incidence, engine=self._engine)
             rate = model.core.consistent_rate(t, y, inputs)
             out = model.core.outputs(t, y, rate, inputs)
             return rate, out | {"torque": -model.hand * out["hub_moment"][2]}
 
-        speed = model.omega * float(shares(model.rotor_speed, np.asarray(t)))
+        if self.engine is None:
+            speed = model.omega * float(shares(model.rotor_speed, np.asarray(t)))
+        else:
+            speed = float(y[model.layout["turn"][0] + 1])
         return Sensors(y, self.start.condition.altitude, speed, measure)
 
     def _asked(self, sticks: Mapping[str, float] | Sequence[float] | None) -> np.ndarray:
@@ -235,7 +268,10 @@ class Simulation(Stepping):
             "step": self._step,
             "stick": self._stick.tolist(),
             "stabilator": self._incidence,
+            **self.clock.memory(),
         }
+        if self.engine is not None:
+            scalars |= {"engine": list(self._engine), "engine_memory": self.engine.memory()}
         parts = {
             "y": np.asarray(self._y, "<f8").tobytes(),
             "integrator": self.solver.memory(),
@@ -253,10 +289,15 @@ class Simulation(Stepping):
             raise InputError.of("snapshot", kind, "must be what Simulation.snapshot returned") from reason
         exchange = Exchange.unpacked(self.model, snapshot.parts["exchange"])
         y = np.frombuffer(snapshot.parts["y"], "<f8").copy()
+        self.clock.recall(snapshot.scalars)
         self.solver.recall(self.clock.time(snapshot.step), y, snapshot.parts["integrator"])
         self.exchange, self._y, self._step = exchange, y, snapshot.step
         self._stick = np.array(snapshot.scalars["stick"])
         self._incidence = snapshot.scalars["stabilator"]
+        if self.engine is not None:
+            torque, fuel = snapshot.scalars["engine"]
+            self._engine = (torque, fuel)
+            self.engine.recall(snapshot.scalars["engine_memory"])
         if self.chain is not None:
             self.chain.recall(snapshot.parts["control"])
 
@@ -273,14 +314,14 @@ class Simulation(Stepping):
             "inflow": str(model.inflow),
             "integrator": f"{self.integrator}, rtol {self.rtol!r}",
             "stabilator": self.stabilator,
-            "rotor speed": str(model.rotor_speed or CONSTANT),
+            "rotor speed": self.turning.name,
             "control": json.dumps(self.control.described(), sort_keys=True),
             "trim": hashlib.sha256(np.asarray(start.x, "<f8").tobytes()).hexdigest()[:16],
         }
 
     def __reduce__(self) -> tuple[Any, ...]:
         """By value: the trim, the configuration and a snapshot."""
-        own = (self.start, self.model, self.integrator, self.rtol, self.stabilator, self.control)
+        own = (self.start, self.model, self.integrator, self.rtol, self.stabilator, self.turning, self.control)
         return _revived, (own, self.phase, self.seconds, self.snapshot())
 
     def _rows(self) -> list[tuple[str, str]]:
@@ -311,7 +352,7 @@ class Simulation(Stepping):
 
 
 def _revived(
-    own: tuple[Trim, Model, str, float, str, Augmentation],
+    own: tuple[Trim, Model, str, float, str, Turning, Augmentation],
     phase: ConvergencePhase,
     seconds: dict[str, float],
     snapshot: Snapshot,
@@ -324,9 +365,13 @@ def _revived(
     return sim
 
 
-def flight_model(start: Trim, inflow: str | InflowModel | None, rotor_speed: RotorSpeed = CONSTANT) -> Model:
-    """Model to fly with, its rotor at `rotor_speed`."""
-    return _trimmed_model(start, inflow).at_speed(history(rotor_speed))
+def flight_model(start: Trim, inflow: str | InflowModel | None, turned: Turning | None = None) -> Model:
+    """Model to fly with, its rotor turned as `turned` says, by default at constant speed."""
+    turned = turned or Turning()
+    model = _trimmed_model(start, inflow).at_speed(turned.corners)
+    if turned.engine is None:
+        return model
+    return model.driven(start.mean_outputs()["power"], turned.engine.governed)
 
 
 def _trimmed_model(start: Trim, inflow: str | InflowModel | None) -> Model:

@@ -45,11 +45,13 @@ class Stepping:
     """
 
     stabilator = "held"
+    _engine = (0.0, 1.0)
+    """Torque of the engines [N m] and share of the fuel over the step that begins."""
 
     def _begin(self, model: CompiledRotor, solver: Integrator, y: np.ndarray, stick: np.ndarray, step: int = 0) -> None:
         """At the states `y` after `step` steps; the exchange comes by itself."""
         self.model, self.solver = model, solver
-        self.clock = model.clock
+        self.clock = model.clock.own()
         self.seconds = {"wake": 0.0, "dynamics": 0.0}
         self.exchange: Exchange
         self._y, self._step, self._stick, self._incidence = y, step, stick, 0.0
@@ -96,13 +98,14 @@ class Stepping:
         for t0, t1 in pieces:
             if t0 > t:
                 path = self._commanded(sticks, (t0, t1), self.solver.state)
-                inputs = coupling_inputs(path, t0, *self.exchange.held(self._step), self._incidence)
+                inputs = self._inputs(t0, path.at(t0), path.rate(t0))[0]
             self.solver.advance_to(t1, inputs)
         self._y = self.solver.state
         self.seconds["dynamics"] += time.perf_counter() - clock
 
         self._step += 1
         self._stick = path.at(end)
+        self._turned(end)
         clock = time.perf_counter()
         self.exchange.reach(self._step, self._y, self._stick, path.rate(end))
         self.seconds["wake"] += time.perf_counter() - clock
@@ -122,19 +125,17 @@ class Stepping:
         if self.stabilator == "scheduled" and self._step > 0 and not ends:
             follow = self.model.core.followed_incidence
             self._incidence = follow(self._incidence, self._y, float(stick[2]), self.clock.duration(self._step - 1))
-        inputs, mean = self._inputs(stick, sticks.rate(t))
+        inputs, mean = self._inputs(t, stick, sticks.rate(t))
         clock = time.perf_counter()
         y_dot = self.solver.consistent(t, self._y, inputs)
         self.seconds["dynamics"] += time.perf_counter() - clock
         return Instant(self._step, t, self._y, y_dot, inputs, stick, mean, self._incidence)
 
-    def _inputs(self, stick: np.ndarray, stick_rate: np.ndarray) -> tuple[_core.Inputs, float]:
+    def _turned(self, t: float) -> None:
+        """The step has ended at `t`: what a rotor has whose speed is a state."""
+
+    def _inputs(self, t: float, stick: np.ndarray, rate: np.ndarray) -> tuple[_core.Inputs, float]:
+        """Sticks from `t` on; inflow, stabilator and engines held."""
         held, mean = self.exchange.held(self._step)
-        return _core.Inputs(stick, stick_rate, self.t, held, mean, self._incidence), mean
-
-
-def coupling_inputs(
-    sticks: StickPath, t: float, held: np.ndarray | None, mean: float, stabilator_incidence: float
-) -> _core.Inputs:
-    """Sticks from `t` on; inflow and stabilator held."""
-    return _core.Inputs(sticks.at(t), sticks.rate(t), t, held, mean, stabilator_incidence)
+        inputs = _core.Inputs(stick, rate, t, held, mean, self._incidence, engine=self._engine)
+        return inputs, mean

@@ -41,7 +41,7 @@ PYTHON_ORDER = (
     {"options", "control"},
     {"presets"},
     {"condition", "inflow", "maneuvers", "wing", "monitors", "snapshot", "rotor_speed"},
-    {"aircraft", "thinning"},
+    {"aircraft", "thinning", "engine"},
     {"model", "modes", "airfoil_loop", "file_schemas", "acoustics"},
     {"integrators", "exchange"},
     {"trim", "stepping"},

@@ -10,13 +10,14 @@ use wakeflight::blade::hub_motion::HubMotion;
 use wakeflight::blade::kinematics::ModalMotion;
 use wakeflight::numerics::frames::Vec3;
 use wakeflight::rotor::data::RotorData;
+use wakeflight::rotor::drive::Drive;
 use wakeflight::rotor::passages::FIELDS;
 use wakeflight::rotor::speed::{RotorSpeed, SpeedHistory};
 use wakeflight::rotor::swashplate::{PitchHarmonic, Rigging};
 use wakeflight::system::blades::Controls;
 use wakeflight::system::carrier::Stand;
 use wakeflight::system::data::AircraftData;
-use wakeflight::system::instant::{HeldInflow, Inputs};
+use wakeflight::system::instant::{EngineInput, HeldInflow, Inputs};
 use wakeflight::system::model::{Setting, System};
 
 /// What acts on the system over one coupling step; see `wakeflight.flight`.
@@ -25,9 +26,10 @@ pub struct PyInputs(pub(crate) Inputs);
 
 #[pymethods]
 impl PyInputs {
-    /// Sticks [m] and rates [m/s] at `t_start` [s]; inflow (n_blades, n_stations), None for the states of y.
+    /// Sticks [m] and rates [m/s] at `t_start` [s]; inflow (n_blades, n_stations), None for the states of y; engine: torque without a
+    /// governor [N m] and share of the fuel with one.
     #[new]
-    #[pyo3(signature = (stick, stick_rate, t_start, inflow, mean_inflow, stabilator_incidence, vacuum=false))]
+    #[pyo3(signature = (stick, stick_rate, t_start, inflow, mean_inflow, stabilator_incidence, vacuum=false, engine=(0.0, 1.0)))]
     fn new(
         stick: [f64; 4],
         stick_rate: [f64; 4],
@@ -36,6 +38,7 @@ impl PyInputs {
         mean_inflow: f64,
         stabilator_incidence: f64,
         vacuum: bool,
+        engine: (f64, f64),
     ) -> PyResult<Self> {
         let inflow = match (inflow, vacuum) {
             (_, true) => HeldInflow::Vacuum,
@@ -50,6 +53,7 @@ impl PyInputs {
             t_start,
             inflow: vec![inflow],
             stabilator_incidence,
+            engine: EngineInput { torque: engine.0, fuel: engine.1 },
             disturbance: None,
         }))
     }
@@ -107,6 +111,12 @@ impl PySystem {
         Ok(Self { inner })
     }
 
+    /// The same system, its first rotor turned by a drive, from its JSON: azimuth and speed are states.
+    fn with_drive(&self, drive_json: &str) -> PyResult<Self> {
+        let drive: Drive = serde_json::from_str(drive_json).map_err(invalid)?;
+        Ok(Self { inner: self.inner.clone().with_drive(drive).map_err(invalid)? })
+    }
+
     /// Angle [rad] by which the first blade has turned at time `t` [s].
     fn turned(&self, t: f64) -> f64 {
         self.inner.main().turned(t)
@@ -122,7 +132,8 @@ impl PySystem {
         self.inner.layout.names()
     }
 
-    /// Start indices of the parts of y: velocity, rates, attitude, position, per blade modal and modal_rate, inflow, tail.
+    /// Start indices of the parts of y: velocity, rates, attitude, position, per blade modal and modal_rate, inflow, azimuth
+    /// with speed and engines, tail.
     fn layout<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let (layout, d) = (&self.inner.layout, PyDict::new(py));
         let l = layout.main();
@@ -132,6 +143,7 @@ impl PySystem {
         d.set_item("modal", (0..l.n_blades).map(|b| span(l.modal(b))).collect::<Vec<_>>())?;
         d.set_item("modal_rate", (0..l.n_blades).map(|b| span(l.modal_rate(b))).collect::<Vec<_>>())?;
         d.set_item("inflow", span(l.inflow()))?;
+        d.set_item("turn", span(l.turn()))?;
         d.set_item("tail_inflow", span(layout.closed_inflow()))?;
         d.set_item("size", layout.len())?;
         Ok(d)
@@ -335,6 +347,8 @@ impl PySystem {
             ("beta_1c", Value::Number(o.beta_1c)),
             ("beta_1s", Value::Number(o.beta_1s)),
             ("power", Value::Vector([o.power, all.power[0], all.power[1]])),
+            ("rotor_speed", Value::Number(o.speed)),
+            ("engine_torque", Value::Number(o.engine_torque.unwrap_or_default())),
             ("energy", Value::Number(all.energy)),
             ("load_power", Value::Number(all.load_power)),
             ("azimuth", Value::Numbers(o.azimuth)),

@@ -100,7 +100,7 @@ impl Trimmed {
         for l in 0..AZIMUTHS {
             let psi = TAU * l as f64 / AZIMUTHS as f64;
             let (modal, pitch) = motion(&x, psi);
-            let loads = rotor.blade_loads(AIR, &self.hub(), psi, &modal, &pitch, &inflow);
+            let loads = rotor.blade_loads(AIR, &self.hub(), D::cst(psi), &modal, &pitch, &inflow);
             for i in 0..N {
                 let first = i * (1 + 2 * HARMONICS);
                 rows[first] += loads.modal[i];
@@ -138,7 +138,7 @@ impl Trimmed {
         if !damper {
             without.lag_damper = None;
         }
-        let mut rows = without.blade_loads(AIR, &self.hub(), psi, &modal, &pitch, &inflow).modal;
+        let mut rows = without.blade_loads(AIR, &self.hub(), P::cst(psi), &modal, &pitch, &inflow).modal;
         if !pitch_rate_moment {
             self.take_pitch_rate_moment_off(psi, &modal, &pitch, &mut rows);
         }

@@ -5,7 +5,7 @@ mod mechanics_support;
 use mechanics_support::beam_support::uh60a;
 use mechanics_support::*;
 use wakeflight::airfoil::span::SpanSections;
-use wakeflight::system::instant::{Disturbance, HeldInflow, Inputs};
+use wakeflight::system::instant::{Disturbance, EngineInput, HeldInflow, Inputs};
 use wakeflight::system::model::System;
 
 const STICK: [f64; 4] = [0.13, 0.14, 0.12, 0.06];
@@ -77,12 +77,16 @@ fn cases(smooth: bool) -> Vec<(System, Inputs, &'static str)> {
     let inflow: Vec<f64> = (0..n).map(|_| 0.03 + 0.02 * random.next()).collect();
     let mut moving = inputs(STICK, HeldInflow::Dynamic);
     moving.stick_rate = [0.2, -0.1, 0.15, 0.05];
+    let failing = Inputs { engine: EngineInput { torque: 0.0, fuel: 0.3 }, ..moving.clone() };
+    let pulled = Inputs { engine: EngineInput { torque: 4e4, fuel: 1.0 }, ..moving.clone() };
     let mut both = moving.clone();
     both.inflow.push(HeldInflow::Dynamic);
     vec![
         (build(&tandem(&data), false, 9.80665), both, "two rotors, the second clockwise"),
         (on_stand(&data, false), moving.clone(), "a stand, dynamic inflow"),
         (changing_speed(dynamic.clone(), 0.8, 0.3), moving.clone(), "rotor speed falling"),
+        (driven(dynamic.clone(), true), failing, "rotor speed governed, less fuel"),
+        (driven(on_stand(&data, false), false), pulled, "rotor speed free on a stand"),
         (dynamic, moving, "dynamic inflow, sticks moving"),
         (
             held.clone(),
@@ -150,6 +154,7 @@ fn derivatives_by_what_acts_equal_central_differences() {
         let (t, (y, y_dot)) = (0.123, random_state(&aircraft, &mut Random::new(12)));
         let slopes = aircraft.input_slopes(&at(t, &y, &y_dot, &inputs)).unwrap();
         let columns = slopes.names.len();
+        let driven = aircraft.layout.main().spin().is_some();
         let stations = inputs.inflow.iter().any(|held| matches!(held, HeldInflow::Stations { .. }));
         let disturbed = columns - 3 - 2 * aircraft.rotors.len();
         assert_eq!(disturbed > 9, stations);
@@ -165,6 +170,8 @@ fn derivatives_by_what_acts_equal_central_differences() {
                         let mut more = Disturbance { wind: [0.0; 3], speed };
                         match column - disturbed {
                             k @ 0..3 => more.wind[k] = h,
+                            3 if driven => inputs.engine.torque += 1e6 * h,
+                            4 if driven => inputs.engine.fuel += h,
                             k => more.speed.as_flattened_mut()[k - 3] = h,
                         }
                         inputs.disturbance = Some(more);
@@ -177,9 +184,13 @@ fn derivatives_by_what_acts_equal_central_differences() {
                 residual(&aircraft, t, &y, &y_dot, &inputs)
             };
             let expected = difference(moved, 1e-4);
-            let found: Vec<f64> = (0..y.len()).map(|row| slopes.values[row * columns + column]).collect();
+            let size = if input == "engine_torque" { 1e6 } else { 1.0 };
+            let found: Vec<f64> =
+                (0..y.len()).map(|row| size * slopes.values[row * columns + column]).collect();
             if expected.iter().chain(&found).all(|v| v.abs() < 1e-7) {
-                assert!(column < disturbed, "{name}: nothing feels {input}");
+                // a governor has its own torque, a given torque no fuel
+                let unused = if aircraft.layout.main().engine().is_some() { "torque" } else { "fuel" };
+                assert!(column < disturbed || input.ends_with(unused), "{name}: nothing feels {input}");
                 continue;
             }
             let e = relative_error(&found, &expected);

@@ -156,7 +156,7 @@ fn a_rotor_off_its_nominal_speed_is_one_of_that_speed() {
     }
     // the same azimuth
     let t = 0.4;
-    let same = off.azimuth(0, t, 0) / other.rotors[0].omega;
+    let same = off.azimuth(0, t, &y, 0) / other.rotors[0].omega;
     let later = |inputs: &Inputs, t: f64| Inputs { t_start: t, ..inputs.clone() };
     let (mut f, mut g) = (vec![0.0; y.len()], vec![0.0; y.len()]);
     off.residual(&at(t, &y, &y_dot, &later(&moving, t)), &mut f);

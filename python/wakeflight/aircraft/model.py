@@ -276,6 +276,38 @@ class Aircraft:
         )
 
     @property
+    def drive_inertia(self) -> tuple[float, float]:
+        """Moment of inertia of all that turns with the rotor but its blades, at its speed, and that of the hub in it [kg m2]."""
+        parts = ("engines", "tail_rotor", "hub", "gearbox", "accessories")
+        stated = dict(self._spec.drive)
+        missing = [f"inertia_{part}" for part in parts if stated[f"inertia_{part}"] is None]
+        if missing:
+            raise self._needed(missing)
+        return sum(float(stated[f"inertia_{part}"]) for part in parts), float(stated["inertia_hub"])
+
+    @property
+    def governor(self) -> tuple[tuple[float, float, float], float]:
+        """Power taken off by excess of speed [W s/rad], its integral [W/rad], its rate [W s2/rad], and the engines' lag [s]."""
+        names = (
+            "governor_proportional",
+            "governor_integral",
+            "governor_derivative",
+            "power_per_fuel_flow",
+            "engine_lag",
+        )
+        stated = dict(self._spec.drive)
+        missing = [name for name in names if stated[name] is None]
+        if missing:
+            raise self._needed(missing)
+        proportional, integral, derivative, power, lag = (float(stated[name]) for name in names)
+        return (proportional * power, integral * power, derivative * power), lag
+
+    def _needed(self, missing: list[str]) -> InputError:
+        """What the file does not say of its drive train, where the speed of the rotor is to be a state."""
+        allowed = f"needs drive.{', drive.'.join(missing)} in the aircraft file"
+        return InputError.of("rotor_speed", "a state", allowed, file=self._path)
+
+    @property
     def warnings(self) -> tuple[str, ...]:
         """What is doubtful in the file or not used of it, a line each."""
         return self._warnings

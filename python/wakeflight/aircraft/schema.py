@@ -243,9 +243,21 @@ class InterferenceFactors(Group):
 
 
 class Drive(Group):
-    """Drive train at constant rotor speed."""
+    """Drive train: what turns with the rotor, at its speed, and the engines' governor; needed where the speed is a state."""
 
     accessory_power: scalar("W", low=0.0, high=1e7)
+    inertia_engines: scalar("kg m2", low=0.0, high=1e7) | None = None
+    inertia_tail_rotor: scalar("kg m2", low=0.0, high=1e7) | None = None
+    # the hub without its blades: the only part that turns about the shaft itself
+    inertia_hub: scalar("kg m2", low=0.0, high=1e7) | None = None
+    inertia_gearbox: scalar("kg m2", low=0.0, high=1e7) | None = None
+    inertia_accessories: scalar("kg m2", low=0.0, high=1e7) | None = None
+    engine_lag: scalar("s", above=0.0, high=100.0) | None = None
+    power_per_fuel_flow: scalar("W s/kg", above=0.0, high=1e9) | None = None
+    # fuel flow taken off by excess of speed, by its integral, by its rate
+    governor_proportional: scalar("kg/rad", low=0.0, high=1e3) | None = None
+    governor_integral: scalar("kg/s/rad", above=0.0, high=1e3) | None = None
+    governor_derivative: scalar("kg s/rad", low=0.0, high=1e3) | None = None
 
 
 class Limits(Group):

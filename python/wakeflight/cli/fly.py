@@ -13,6 +13,7 @@ from .groups import (
     Integrator,
     ManeuverName,
     Revolutions,
+    RotorSpeedName,
     Run,
     Vehicle,
     Wake,
@@ -29,16 +30,17 @@ def fly(
     revolutions: Revolutions = None,
     wake: Wake,
     integrator: Integrator = "ida",
+    rotor_speed: RotorSpeedName = "constant",
     blades: Blades = None,
     control: Control = None,
     drawing: Drawing,
     run: Run,
 ) -> None:
     """Trim, fly a manoeuvre, write run.nc, figures and report.html."""
-    check_flight(revolutions, integrator)
+    check_flight(revolutions, integrator, rotor_speed)
     asked = request(vehicle, given, inflow, wake, run, maneuver, blades, drawing=drawing, control=control)
     print(asked.told(), flush=True)
     from ..progress import Progress
 
     with Progress() as progress:
-        outcome.fly_once(asked, revolutions, integrator, asked.out, progress)
+        outcome.fly_once(asked, revolutions, integrator, asked.out, progress, rotor_speed)

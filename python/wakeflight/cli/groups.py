@@ -85,6 +85,14 @@ FigureFormat = Annotated[
 AllowOutside = Annotated[
     bool, typer.Option("--allow-outside", help="read tables elsewhere than beside the aircraft or rotor file, or below")
 ]
+RotorSpeedName = Annotated[
+    str,
+    typer.Option(
+        "--rotor-speed",
+        help="constant, governed by the engines, free with the torque of the trim",
+        autocompletion=offered("constant", "governed", "free"),
+    ),
+]
 
 
 class Group:

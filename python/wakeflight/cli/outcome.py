@@ -38,7 +38,14 @@ def keeping(verb: Callable[..., Any], save: Callable[[Any], Any]) -> Callable[..
     return kept
 
 
-def fly_once(request: Request, revolutions: float | None, integrator: str, out: Path, progress: Progress) -> Any:
+def fly_once(
+    request: Request,
+    revolutions: float | None,
+    integrator: str,
+    out: Path,
+    progress: Progress,
+    rotor_speed: str = "constant",
+) -> Any:
     """Trim and fly one request, save whatever was computed, raise where the flight did not finish."""
     from ..flight import fly as solve
     from ..inflow import trim_model
@@ -53,6 +60,7 @@ def fly_once(request: Request, revolutions: float | None, integrator: str, out: 
         integrator=integrator,
         progress=progress,
         control=request.control,
+        rotor_speed=rotor_speed,
     )
     save_flight(flight, out, progress, request.drawing)
     if not flight.finished:

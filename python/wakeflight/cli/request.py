@@ -128,12 +128,14 @@ def inflow_from(name: str, wake: Wake, on_stand: bool = False, lenient: bool = F
     return replace(model, **typed_options(model.name, wake, lenient))
 
 
-def check_flight(revolutions: float | None, integrator: str) -> None:
-    """Refuse a length of flight or an integrator that there is not."""
+def check_flight(revolutions: float | None, integrator: str, rotor_speed: str = "constant") -> None:
+    """Refuse a length of flight, an integrator or a way to turn the rotor that there is not."""
     if revolutions is not None and not 0.0 < revolutions <= 10000.0:
         raise InputError.of("--revolutions", revolutions, "must lie above 0 and at most 10000")
     if integrator not in ("ida", "fixed"):
         raise InputError.choice("--integrator", integrator, ("ida", "fixed"))
+    if rotor_speed not in ("constant", "governed", "free"):
+        raise InputError.choice("--rotor-speed", rotor_speed, ("constant", "governed", "free"))
 
 
 def set_threads(threads: int | None) -> None:

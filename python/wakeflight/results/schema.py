@@ -125,6 +125,8 @@ RUN: tuple[Variable, ...] = (
         "ct",
         "inflow_mean",
         "rotor_speed",
+        ("torque", "torque of the engines at the speed of the rotor, where it is a state"),
+        "power_engine",
         "stabilator",
         "odd_even",
         "max_displacement",

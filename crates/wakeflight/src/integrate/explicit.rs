@@ -230,7 +230,7 @@ impl ExplicitStep {
             .unwrap_or_else(|| (0..self.y.len()).max_by(|&a, &b| size(a).total_cmp(&size(b))).unwrap_or(0));
         ExplicitFailure {
             t: self.t,
-            azimuth: system.azimuth(0, self.t, 0).to_degrees().rem_euclid(360.0),
+            azimuth: system.azimuth(0, self.t, &self.y, 0).to_degrees().rem_euclid(360.0),
             reason,
             state: system.layout.names().into_iter().nth(worst).map_or_else(String::new, |(name, _)| name),
         }

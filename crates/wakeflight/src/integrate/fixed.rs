@@ -406,7 +406,7 @@ impl FixedStep {
         });
         StepFailure {
             t: self.t,
-            azimuth: system.azimuth(0, self.t, 0).to_degrees().rem_euclid(360.0),
+            azimuth: system.azimuth(0, self.t, &self.y, 0).to_degrees().rem_euclid(360.0),
             reason,
             residual: f.get(worst).copied().unwrap_or(0.0),
             equation: system.layout.names().into_iter().nth(worst).map_or_else(String::new, |(name, _)| name),

@@ -118,7 +118,7 @@ impl Rotor {
             theta_ddot: D::cst(c.theta_ddot),
         };
         let (hub, inflow) = (hub.constant(), BladeInflow::ThreeQuarter { law, inflow: &inflow });
-        let sections = self.blade_air(air, &hub, blade.psi, &modal, &control, &inflow);
+        let sections = self.blade_air(air, &hub, D::cst(blade.psi), &modal, &control, &inflow);
         for (j, (section, _)) in sections.enumerate() {
             each(j, section.circulation);
         }

@@ -1,6 +1,7 @@
 //! The rotor: equal blades on a hub, each with its lag damper, turned by the swashplate.
 
 use super::data::RotorData;
+use super::drive::Drive;
 use super::lag_damper::LagDamper;
 use super::sense::Sense;
 use super::speed::{RotorSpeed, Turning};
@@ -86,28 +87,28 @@ impl Rotor {
         self.omega * self.blade.radius
     }
 
-    /// Azimuth of the first blade [rad] at time `t` [s].
+    /// Azimuth of the first blade [rad] at time `t` [s]; where it is a state, that of the nominal speed.
     #[inline(always)]
     pub fn turned(&self, t: f64) -> f64 {
         match &self.speed {
-            RotorSpeed::Constant => self.omega * t,
+            RotorSpeed::Constant | RotorSpeed::Free(_) => self.omega * t,
             RotorSpeed::Prescribed(history) => history.azimuth(t),
         }
     }
 
-    /// Time [s] at which the first blade has turned by `psi` [rad].
+    /// Time [s] at which the first blade has turned by `psi` [rad]; where it is a state, at the nominal speed.
     pub fn time(&self, psi: f64) -> f64 {
         match &self.speed {
-            RotorSpeed::Constant => psi / self.omega,
+            RotorSpeed::Constant | RotorSpeed::Free(_) => psi / self.omega,
             RotorSpeed::Prescribed(history) => history.time(psi),
         }
     }
 
-    /// Speed and its rate at time `t` of a step that began at `begin` [s].
+    /// Speed and its rate at time `t` of a step that began at `begin` [s]; where it is a state, the nominal one.
     #[inline(always)]
     pub fn turning(&self, t: f64, begin: f64) -> Turning {
         match &self.speed {
-            RotorSpeed::Constant => Turning::steady(self.omega),
+            RotorSpeed::Constant | RotorSpeed::Free(_) => Turning::steady(self.omega),
             RotorSpeed::Prescribed(history) => history.turning(t, begin),
         }
     }
@@ -119,10 +120,10 @@ impl Rotor {
         &self,
         stick: [U; 4],
         stick_rate: [U; 4],
-        psi: f64,
+        psi: U,
         turning: Turning<U>,
     ) -> BladePitch<U> {
-        let mut pitch = self.rigging.blade_pitch(stick, stick_rate, U::cst(psi), turning);
+        let mut pitch = self.rigging.blade_pitch(stick, stick_rate, psi, turning);
         for harmonic in &self.higher {
             harmonic.add_to(&mut pitch, psi, turning);
         }
@@ -152,8 +153,17 @@ impl Rotor {
         })
     }
 
+    /// What moves a speed that is a state.
+    pub fn drive(&self) -> Option<&Drive> {
+        match &self.speed {
+            RotorSpeed::Free(drive) => Some(drive),
+            RotorSpeed::Constant | RotorSpeed::Prescribed(_) => None,
+        }
+    }
+
     /// Azimuth of blade `b` [rad] when the first is at `psi`.
-    pub fn azimuth(&self, psi: f64, b: usize) -> f64 {
+    #[inline(always)]
+    pub fn azimuth<S: Real>(&self, psi: S, b: usize) -> S {
         psi + std::f64::consts::TAU * b as f64 / self.n_blades as f64
     }
 
@@ -168,7 +178,7 @@ impl Rotor {
         &self,
         air: Air,
         hub: &HubMotion<S>,
-        psi: f64,
+        psi: S,
         modal: &ModalMotion<S>,
         control: &PitchMotion<S>,
         inflow: &BladeInflow<S>,
@@ -184,12 +194,12 @@ impl Rotor {
         &self,
         air: Air,
         hub: &HubMotion<S>,
-        psi: f64,
+        psi: S,
         modal: &ModalMotion<S>,
         control: &PitchMotion<S>,
         inflow: &BladeInflow<S>,
     ) -> BladeLoads<S> {
-        self.blade.loads(&self.environment(air), hub, S::cst(psi), modal, control, inflow)
+        self.blade.loads(&self.environment(air), hub, psi, modal, control, inflow)
     }
 
     /// Inflow of a blade held as one row: at the stations, followed for thin sections by that at three quarters of the chord.
@@ -210,17 +220,17 @@ impl Rotor {
         &self,
         air: Air,
         hub: &HubMotion<S>,
-        psi: f64,
+        psi: S,
         modal: &ModalMotion<S>,
         control: &PitchMotion<S>,
         inflow: &BladeInflow<S>,
     ) -> impl Iterator<Item = (SectionAir<S>, S)> {
-        self.blade.air(self.environment(air), hub, S::cst(psi), modal, control, inflow)
+        self.blade.air(self.environment(air), hub, psi, modal, control, inflow)
     }
 
     /// Virtual work of damper and hinge spring: they act between hub and blade and pass no load on.
     #[inline(always)]
-    pub(super) fn add_damper<S: Real>(
+    pub(crate) fn add_damper<S: Real>(
         &self,
         modal: &ModalMotion<S>,
         control: &PitchMotion<S>,

@@ -1,6 +1,7 @@
 //! The rotor: swashplate, lag damper, hub, periodic blade motion, circulation with the near wake, the stand.
 pub mod circulation;
 pub mod data;
+pub mod drive;
 pub mod exchange;
 pub mod four;
 pub mod hub;

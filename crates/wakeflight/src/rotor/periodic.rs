@@ -100,7 +100,7 @@ impl Rotor {
             let psi = turn.azimuth(l);
             let modal = harmonics.motion(turn.x, psi, self.omega);
             let (control, inflow) = given(l, psi);
-            let loads = self.blade_loads(turn.air, turn.hub, psi, &modal, &control, &inflow);
+            let loads = self.blade_loads(turn.air, turn.hub, S::cst(psi), &modal, &control, &inflow);
             self.add_azimuth(harmonics, (psi, n), &loads, &mut mean, f);
         }
         mean

@@ -139,7 +139,7 @@ impl Task for AzimuthPass<'_> {
             AzimuthInflow::Disk(_) => BladeInflow::Disk(disk),
             AzimuthInflow::Held(row) => rotor.held_inflow(row),
         };
-        let loads = rotor.blade_loads(self.air, &hub, self.psi, &modal, &pitch, &inflow);
+        let loads = rotor.blade_loads(self.air, &hub, S::cst(self.psi), &modal, &pitch, &inflow);
         let span = self.first..self.first + lanes;
         for i in 0..m {
             self.table[i][span.clone()].copy_from_slice(&loads.modal[i].slopes()[..lanes]);

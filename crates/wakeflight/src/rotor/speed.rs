@@ -1,10 +1,11 @@
-//! Speed of a rotor in time: constant, or a prescribed history; its azimuth is the integral of it.
+//! Speed of a rotor in time: constant, a prescribed history, or a state; its azimuth is the integral of it.
 //!
 //! Whatever is counted without dimension (inflow over the tip speed, coefficients, blade modes) is counted at the nominal speed
 //! of the rotor, which does not change. Blades turn at the nominal speed about a hub that carries what the rotor turns faster:
 //! with excess e and rate w_dot of the speed about the shaft k, a hub with the rates w of the carrier moves for its blades at
 //! w + e k and accelerates at w' + w x e k + w_dot k. Their kinematics then are those of the speed itself, exactly.
 
+use super::drive::Drive;
 use crate::blade::hub_motion::HubMotion;
 use crate::numerics::frames::{Hub, Vec3};
 use crate::numerics::scalar::Real;
@@ -41,6 +42,27 @@ impl<S: Real> Turning<S> {
     }
 }
 
+/// Where a rotor is in its turn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spin<S = f64> {
+    /// Azimuth of the first blade [rad].
+    pub psi: S,
+    /// Speed and its rate.
+    pub turning: Turning<S>,
+}
+
+impl Spin {
+    /// Without derivatives.
+    #[inline(always)]
+    pub fn constant<S: Real>(&self) -> Spin<S> {
+        let Turning { omega, omega_dot } = self.turning;
+        Spin {
+            psi: S::cst(self.psi),
+            turning: Turning { omega: S::cst(omega), omega_dot: S::cst(omega_dot) },
+        }
+    }
+}
+
 /// How the speed of a rotor goes in time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum RotorSpeed {
@@ -49,6 +71,8 @@ pub enum RotorSpeed {
     Constant,
     /// A history.
     Prescribed(SpeedHistory),
+    /// Azimuth and speed are states that a drive moves.
+    Free(Drive),
 }
 
 /// Why a history of rotor speed cannot be followed.

@@ -48,15 +48,15 @@ pub struct PitchHarmonic {
 impl PitchHarmonic {
     /// Adds this harmonic at azimuth `psi` [rad] of a rotor that is `turning`.
     #[inline(always)]
-    pub fn add_to<S: Real>(&self, pitch: &mut BladePitch<S>, psi: f64, turning: Turning<S>) {
+    pub fn add_to<S: Real>(&self, pitch: &mut BladePitch<S>, psi: S, turning: Turning<S>) {
         let order = self.order as f64;
         let w = turning.omega * order;
-        let (s, c) = (order * psi).sin_cos();
-        let value = self.cosine * c + self.sine * s;
-        let by_angle = self.sine * c - self.cosine * s;
-        pitch.theta += S::cst(value);
+        let (s, c) = (psi * order).sin_cos();
+        let value = c * self.cosine + s * self.sine;
+        let by_angle = c * self.sine - s * self.cosine;
+        pitch.theta += value;
         pitch.theta_dot += w * by_angle;
-        pitch.theta_ddot += w * -value * w + turning.omega_dot * (order * by_angle);
+        pitch.theta_ddot += w * -value * w + turning.omega_dot * (by_angle * order);
     }
 }
 
@@ -84,7 +84,7 @@ impl<S: Real> PitchSeries<'_, S> {
             theta_ddot: -(cyclic * (omega * omega)),
         };
         for harmonic in self.higher {
-            harmonic.add_to(&mut pitch, psi, Turning::steady(omega));
+            harmonic.add_to(&mut pitch, S::cst(psi), Turning::steady(omega));
         }
         pitch
     }

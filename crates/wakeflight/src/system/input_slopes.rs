@@ -1,8 +1,10 @@
 //! Exact derivatives of F by what acts: controls, their rates, stabilator, held inflow, wind, speed of the rotors.
 //!
-//! The speed is differentiated at the azimuths that the blades have: an azimuth of its own is not among what acts.
+//! A given speed is differentiated at the azimuths that the blades have: an azimuth of its own is not among what acts. Where the speed
+//! is a state, torque and fuel of its engines act.
 
-use super::instant::{Disturbance, HeldInflow, Inputs, Instant};
+use super::instant::{Disturbance, EngineInput, HeldInflow, Inputs, Instant};
+use super::layout::Layout;
 use super::model::System;
 use crate::numerics::scalar::{Dual, Real};
 use thiserror::Error;
@@ -26,7 +28,7 @@ pub struct InputSlopes {
 pub struct ThinInflow;
 
 /// Every number of what acts, in the order of the columns; disk means follow the stations they are of.
-fn numbers<U>(inputs: &mut Inputs<U>) -> Vec<&mut U> {
+fn numbers<'a, U>(inputs: &'a mut Inputs<U>, layout: &Layout) -> Vec<&'a mut U> {
     let mut all: Vec<&mut U> = inputs.stick.iter_mut().chain(inputs.stick_rate.iter_mut()).collect();
     all.push(&mut inputs.stabilator_incidence);
     for held in &mut inputs.inflow {
@@ -36,7 +38,11 @@ fn numbers<U>(inputs: &mut Inputs<U>) -> Vec<&mut U> {
         }
     }
     if let Some(disturbance) = &mut inputs.disturbance {
-        all.extend(disturbance.wind.iter_mut().chain(disturbance.speed.as_flattened_mut()));
+        let given = disturbance.speed.iter_mut().zip(&layout.rotors).filter(|(_, l)| l.spin().is_none());
+        all.extend(disturbance.wind.iter_mut().chain(given.flat_map(|(speed, _)| speed.iter_mut())));
+    }
+    if layout.rotors.iter().any(|l| l.spin().is_some()) {
+        all.extend([&mut inputs.engine.torque, &mut inputs.engine.fuel]);
     }
     all
 }
@@ -62,12 +68,14 @@ fn constant(inputs: &Inputs, n_rotors: usize) -> Inputs<D> {
         t_start: inputs.t_start,
         inflow: inflow.collect(),
         stabilator_incidence: D::cst(inputs.stabilator_incidence),
+        engine: EngineInput { torque: D::cst(inputs.engine.torque), fuel: D::cst(inputs.engine.fuel) },
         disturbance: Some(disturbance),
     }
 }
 
 impl System {
-    /// dF/du at an instant: controls, their rates, stabilator, held inflow, wind, speed of every rotor and its rate.
+    /// dF/du at an instant: controls, their rates, stabilator, held inflow, wind, given speed of every rotor and its rate, or what
+    /// its engines are given.
     pub fn input_slopes(&self, at: &Instant<f64>) -> Result<InputSlopes, ThinInflow> {
         let held = |r: usize| matches!(at.inputs.inflow[r], HeldInflow::Stations { .. });
         if self.each_rotor().any(|(r, rotor, _)| rotor.thin.is_some() && held(r)) {
@@ -82,7 +90,9 @@ impl System {
         for first in (0..columns).step_by(LANES) {
             let lanes = LANES.min(columns - first);
             let mut inputs = constant(at.inputs, self.rotors.len());
-            for (lane, number) in numbers(&mut inputs)[first..first + lanes].iter_mut().enumerate() {
+            for (lane, number) in
+                numbers(&mut inputs, &self.layout)[first..first + lanes].iter_mut().enumerate()
+            {
                 number.eps[lane] = 1.0;
             }
             self.residual(&Instant { t: at.t, y: &y, y_dot: &y_dot, inputs: &inputs }, &mut f);
@@ -116,9 +126,14 @@ impl System {
         }
         let wind = if self.layout.free { ["north", "east", "down"] } else { ["x", "y", "z"] };
         names.extend(wind.map(|axis| (format!("wind_{axis}"), "m/s")));
-        for (_, _, l) in self.each_rotor() {
+        for l in self.layout.rotors.iter().filter(|l| l.spin().is_none()) {
             names.push((format!("rotor.{}.speed", l.name), "rad/s"));
             names.push((format!("rotor.{}.speed_rate", l.name), "rad/s2"));
+        }
+        if self.layout.rotors.iter().any(|l| l.spin().is_some()) {
+            names.extend(
+                [("engine_torque", "N m"), ("engine_fuel", "1")].map(|(n, unit)| (n.to_string(), unit)),
+            );
         }
         names
     }

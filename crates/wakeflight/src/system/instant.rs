@@ -62,6 +62,21 @@ pub struct Disturbance<U = f64> {
     pub speed: Vec<[U; 2]>,
 }
 
+/// What the engines of a rotor whose speed is a state are given, held over a coupling step.
+#[derive(Clone, Copy, Debug, Deserialize, Serialize)]
+pub struct EngineInput<U = f64> {
+    /// Torque of engines without a governor, at the speed of the rotor [N m]; behind the clutch none of it below zero acts.
+    pub torque: U,
+    /// Share of the fuel that reaches governed engines: 1 where they run, 0 where they have failed.
+    pub fuel: U,
+}
+
+impl Default for EngineInput {
+    fn default() -> Self {
+        Self { torque: 0.0, fuel: 1.0 }
+    }
+}
+
 /// What acts on the system over one coupling step.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct Inputs<U = f64> {
@@ -76,6 +91,8 @@ pub struct Inputs<U = f64> {
     pub inflow: Vec<HeldInflow<U>>,
     /// Stabilator incidence [rad].
     pub stabilator_incidence: U,
+    /// What the engines of a rotor whose speed is a state are given.
+    pub engine: EngineInput<U>,
     /// Wind and excess speed of the rotors at the azimuths they have; none in flight: F has their derivatives, dF/dy does not know
     /// them.
     pub disturbance: Option<Disturbance<U>>,

@@ -18,6 +18,48 @@ pub struct RotorLayout {
     pub n_modes: usize,
     /// Whether lambda_0, lambda_s, lambda_c are states.
     pub dynamic_inflow: bool,
+    /// Whether azimuth and speed are.
+    pub speed: SpeedStates,
+}
+
+/// What of a rotor's speed is a state.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum SpeedStates {
+    /// Nothing: it is given.
+    #[default]
+    Given,
+    /// Azimuth and speed.
+    Free,
+    /// These, the integral of a governor and the power of the engines.
+    Governed,
+}
+
+impl SpeedStates {
+    fn len(self) -> usize {
+        match self {
+            Self::Given => 0,
+            Self::Free => 2,
+            Self::Governed => 4,
+        }
+    }
+}
+
+/// Where azimuth and speed of a rotor live.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SpinPlace {
+    /// Azimuth of the first blade [rad].
+    pub azimuth: usize,
+    /// Speed [rad/s].
+    pub speed: usize,
+}
+
+/// Where the states of governed engines live.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct EnginePlace {
+    /// Integral of the excess of speed [rad].
+    pub integral: usize,
+    /// Power [W].
+    pub power: usize,
 }
 
 impl RotorLayout {
@@ -36,6 +78,28 @@ impl RotorLayout {
         let start = self.start + 2 * self.n_modes * self.n_blades;
         start..start + if self.dynamic_inflow { 3 } else { 0 }
     }
+    /// Azimuth, speed, and what governs them.
+    pub fn turn(&self) -> Range<usize> {
+        let start = self.inflow().end;
+        start..start + self.speed.len()
+    }
+    /// Azimuth and speed, where they are states.
+    #[inline(always)]
+    pub fn spin(&self) -> Option<SpinPlace> {
+        let azimuth = self.turn().start;
+        (self.speed != SpeedStates::Given).then_some(SpinPlace { azimuth, speed: azimuth + 1 })
+    }
+    /// Azimuth and speed: nothing where they are given.
+    #[inline(always)]
+    pub fn spin_states(&self) -> Range<usize> {
+        let turn = self.turn();
+        turn.start..turn.end.min(turn.start + 2)
+    }
+    /// States of governed engines, where there are any.
+    pub fn engine(&self) -> Option<EnginePlace> {
+        let start = self.turn().start;
+        (self.speed == SpeedStates::Governed).then_some(EnginePlace { integral: start + 2, power: start + 3 })
+    }
     fn names(&self, names: &mut Vec<(String, &'static str)>) {
         let rotor = format!("rotor.{}", self.name);
         for b in 0..self.n_blades {
@@ -46,6 +110,8 @@ impl RotorLayout {
         if self.dynamic_inflow {
             names.extend(["inflow_0", "inflow_1s", "inflow_1c"].map(|n| (format!("{rotor}.{n}"), "1")));
         }
+        let turn = [("azimuth", "rad"), ("speed", "rad/s"), ("governor", "rad"), ("engine_power", "W")];
+        names.extend(turn.into_iter().take(self.speed.len()).map(|(n, unit)| (format!("{rotor}.{n}"), unit)));
     }
 }
 
@@ -60,6 +126,8 @@ pub struct RotorStates {
     pub n_modes: usize,
     /// Whether lambda_0, lambda_s, lambda_c are states.
     pub dynamic_inflow: bool,
+    /// What of its speed is.
+    pub speed: SpeedStates,
 }
 
 /// Where each part of y lives: the carrier where it flies, rotor after rotor, then the inflow of the closed-form rotors.
@@ -88,8 +156,8 @@ impl Layout {
         let mut layout = Self { free, rotors: Vec::new(), closed };
         for r in rotors {
             let start = layout.rotors_end();
-            let RotorStates { name, n_blades, n_modes, dynamic_inflow } = r;
-            layout.rotors.push(RotorLayout { name, start, n_blades, n_modes, dynamic_inflow });
+            let RotorStates { name, n_blades, n_modes, dynamic_inflow, speed } = r;
+            layout.rotors.push(RotorLayout { name, start, n_blades, n_modes, dynamic_inflow, speed });
         }
         layout
     }
@@ -107,7 +175,7 @@ impl Layout {
         if self.free { Self::ATTITUDE } else { 0..0 }
     }
     fn rotors_end(&self) -> usize {
-        self.rotors.last().map_or(self.carrier().end, |r| r.inflow().end)
+        self.rotors.last().map_or(self.carrier().end, |r| r.turn().end)
     }
     /// The first rotor with blades: the main rotor of a helicopter.
     pub fn main(&self) -> &RotorLayout {
@@ -126,10 +194,10 @@ impl Layout {
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
-    /// Entries of y that all blades share: carrier and inflow.
+    /// Entries of y that all blades share: carrier, inflow, speed.
     pub fn shared(&self) -> Vec<usize> {
-        let inflow = self.rotors.iter().flat_map(RotorLayout::inflow);
-        self.carrier().chain(inflow).chain(self.closed_inflow()).collect()
+        let of_rotors = self.rotors.iter().flat_map(|r| r.inflow().chain(r.turn()));
+        self.carrier().chain(of_rotors).chain(self.closed_inflow()).collect()
     }
     /// Gives the quaternion of a carrier that flies its length of one: it has no meaning and drifts with the error of a method.
     pub fn normalise(&self, y: &mut [f64]) {
@@ -176,14 +244,21 @@ pub fn modal_array<S: Real>(y: &[S], range: Range<usize>) -> [S; MAX_MODES] {
 mod tests {
     use super::*;
 
-    fn rotor(name: &str, n_blades: usize, n_modes: usize, dynamic_inflow: bool) -> RotorStates {
-        RotorStates { name: name.into(), n_blades, n_modes, dynamic_inflow }
+    fn rotor(
+        name: &str,
+        (n_blades, n_modes): (usize, usize),
+        dynamic_inflow: bool,
+        speed: SpeedStates,
+    ) -> RotorStates {
+        RotorStates { name: name.into(), n_blades, n_modes, dynamic_inflow, speed }
     }
 
     #[test]
     fn every_state_has_one_place_and_one_name() {
-        let rotors = [rotor("main", 4, 3, true), rotor("tail", 2, 1, false)];
-        for free in [true, false] {
+        let kinds = [SpeedStates::Given, SpeedStates::Free, SpeedStates::Governed];
+        for (free, speed) in [true, false].into_iter().flat_map(|free| kinds.map(|kind| (free, kind))) {
+            let rotors =
+                [rotor("main", (4, 3), true, speed), rotor("tail", (2, 1), false, SpeedStates::Given)];
             let l = Layout::new(free, rotors.clone(), vec!["propeller".into()]);
             let mut all: Vec<usize> = l.shared();
             for r in &l.rotors {
@@ -193,6 +268,15 @@ mod tests {
             assert_eq!(all, (0..l.len()).collect::<Vec<_>>());
             let names = l.names();
             assert_eq!(names.len(), l.len());
+            let named = |i: usize| names[i].0.as_str();
+            if let Some(place) = l.main().spin() {
+                assert_eq!(named(place.azimuth), "rotor.main.azimuth");
+                assert_eq!(named(place.speed), "rotor.main.speed");
+            }
+            if let Some(place) = l.main().engine() {
+                assert_eq!(named(place.integral), "rotor.main.governor");
+                assert_eq!(named(place.power), "rotor.main.engine_power");
+            }
             assert_eq!(names[l.rotors[1].modal_rate(1).start].0, "rotor.tail.blade_1.modal_rate_0");
             assert_eq!(names[l.closed_inflow().start].0, "rotor.propeller.inflow");
         }

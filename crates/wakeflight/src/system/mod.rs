@@ -2,6 +2,7 @@
 pub mod blades;
 pub mod carrier;
 pub mod data;
+pub mod drive;
 pub mod input_slopes;
 pub mod instant;
 pub mod layout;

@@ -2,7 +2,7 @@
 
 use super::carrier::{Carrier, Stand};
 use super::data::AircraftData;
-use super::layout::{Layout, RotorLayout, RotorStates};
+use super::layout::{Layout, RotorLayout, RotorStates, SpeedStates};
 use crate::airframe::assembly::{Airframe, Parts};
 use crate::airframe::mass::{BladesAtHub, MassError};
 use crate::airframe::tail_rotor::TailRotor;
@@ -100,6 +100,7 @@ impl System {
             n_blades: r.n_blades,
             n_modes: r.blade.n_modes,
             dynamic_inflow: !setting.free_wake,
+            speed: SpeedStates::Given,
         });
         let tails = closed.iter().map(|_| "tail".to_string()).collect();
         let layout = Layout::new(carrier.airframe().is_some(), states, tails);

@@ -43,6 +43,10 @@ pub struct RotorOutputs {
     pub beta_1s: f64,
     /// Shaft power [W].
     pub power: f64,
+    /// Speed [rad/s].
+    pub speed: f64,
+    /// Torque of the engines at that speed [N m], where it is a state.
+    pub engine_torque: Option<f64>,
     /// Azimuth of every blade, 0 to 2 pi [rad].
     pub azimuth: Vec<f64>,
     /// Inflow (n_blades x n_stations), positive down.
@@ -86,9 +90,10 @@ impl System {
 
     fn rotor_outputs(&self, r: usize, at: &Instant<f64>) -> (RotorOutputs, RotorShare<f64>) {
         let rotor = &self.rotors[r];
-        let hub = self.felt_hub(r, (at.t, at.y), at.inputs, self.hub_motion(r, at.y, at.y_dot));
-        let loads = self.rotor_loads(r, at, &hub, |_, _| ());
-        let [beta_1c, beta_1s] = self.flap_multiblade(r, at.t, at.y);
+        let spin = self.spin(r, at);
+        let hub = self.felt_hub(r, at.y, at.inputs, (self.hub_motion(r, at.y, at.y_dot), &spin.turning));
+        let loads = self.rotor_loads(r, at, (&hub, &spin), |_, _| ());
+        let [beta_1c, beta_1s] = self.flap_multiblade(r, spin.psi, at.y);
         let sense = rotor.sense;
         let mut o = RotorOutputs {
             hub_force: sense.polar(loads.force).array(),
@@ -98,13 +103,15 @@ impl System {
             ct: rotor.aero_coefficients(self.air, loads.aero_force, loads.aero_moment)[0],
             beta_1c,
             beta_1s,
-            power: -loads.moment.z * rotor.turning(at.t, at.inputs.t_start).omega,
+            power: -loads.moment.z * spin.turning.omega,
+            speed: spin.turning.omega,
+            engine_torque: self.engine_torque(r, at),
             ..RotorOutputs::default()
         };
         for b in 0..rotor.n_blades {
-            let psi = self.azimuth(r, at.t, b);
+            let psi = rotor.azimuth(spin.psi, b);
             o.azimuth.push(psi.rem_euclid(std::f64::consts::TAU));
-            let control = self.blade_pitch(r, at.inputs, (at.t, psi));
+            let control = self.blade_pitch(r, at.inputs, (at.t, &spin), b);
             let modal = self.modal_motion(r, at.y, at.y_dot, b);
             let inflow = self.blade_inflow(r, at.y, at.inputs, b);
             for (air, lambda) in rotor.blade_air(self.air, &hub, psi, &modal, &control, &inflow) {

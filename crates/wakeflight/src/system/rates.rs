@@ -47,9 +47,11 @@ struct RotorInertia {
 }
 
 impl RigidRates {
-    /// For `system`; none where blades bend.
+    /// For `system`; none where blades bend or the speed of a rotor is a state.
     pub fn new(system: &System) -> Option<Self> {
-        let rigid = |r: &Rotor| r.blade.rigid.is_some() && r.blade.n_modes <= MOST_HINGES;
+        // a speed that is a state shares the inertia of all: the implicit steps have it
+        let rigid =
+            |r: &Rotor| r.blade.rigid.is_some() && r.blade.n_modes <= MOST_HINGES && r.drive().is_none();
         if !system.rotors.iter().all(rigid) {
             return None;
         }
@@ -101,13 +103,13 @@ impl RigidRates {
         }
         let mut whole = self.airframe;
         for ((r, rotor, l), found) in system.each_rotor().zip(&mut self.rotors) {
-            let m = l.n_modes;
+            let (m, spin) = (l.n_modes, system.spin(r, &at));
             let mut hub_inertia = Matrix6::zeros();
             let mut hub_load = Vector6::zeros();
             for b in 0..l.n_blades {
-                let psi = system.azimuth(r, t, b);
+                let psi = rotor.azimuth(spin.psi, b);
                 let modal = system.modal_motion(r, y, at.y_dot, b);
-                let control = system.blade_pitch(r, inputs, (t, psi));
+                let control = system.blade_pitch(r, inputs, (t, &spin), b);
                 let inertia = rotor.blade.inertia_about_hinge(psi, &modal, &control).ok_or(NoInertia)?;
                 let blade = &mut found.blades[b];
                 *blade = BladeInertia::of(&inertia, m).ok_or(NoInertia)?;

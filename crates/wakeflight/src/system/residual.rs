@@ -40,19 +40,30 @@ pub struct Settings<'a, S> {
     pub wind: Option<Vec3<S, Body>>,
 }
 
+impl<S: Real> AirframeLoads<S> {
+    /// With a moment more, where there is one.
+    fn turned_by(self, moment: Option<Vec3<S, Body>>) -> Self {
+        match moment {
+            Some(more) => Self { moment: self.moment + more, ..self },
+            None => self,
+        }
+    }
+}
+
 impl System {
     /// Residual: accelerations [m/s2, rad/s2], rates of the kinematic and inflow states, modal forces.
     pub fn residual<S: Real, U: Acting<S>>(&self, at: &Instant<S, U>, f: &mut [S]) {
         let mut shares = Vec::with_capacity(self.rotors.len());
         for (r, rotor, l) in self.each_rotor() {
-            let hub = self.felt_hub(r, (at.t, at.y), at.inputs, self.hub_motion(r, at.y, at.y_dot));
+            let spin = self.spin(r, at);
+            let hub = self.felt_hub(r, at.y, at.inputs, (self.hub_motion(r, at.y, at.y_dot), &spin.turning));
             let mut loads = RotorLoads::zero();
             for b in 0..rotor.n_blades {
-                let blade = self.blade_loads(r, at, &hub, b);
+                let blade = self.blade_loads(r, at, (&hub, &spin), b);
                 blade_rows(l, b, &blade, at, f);
                 loads.add(&blade);
             }
-            shares.push(RotorShare { loads, beta_1c: self.flap_multiblade(r, at.t, at.y)[0] });
+            shares.push(RotorShare { loads, beta_1c: self.flap_multiblade(r, spin.psi, at.y)[0] });
         }
         self.shared_rows(at, &shares, f);
     }
@@ -61,9 +72,10 @@ impl System {
     pub fn residual_of_four(&self, at: &Instant<f64>, f: &mut [f64]) {
         let mut shares = Vec::with_capacity(self.rotors.len());
         for (r, _, l) in self.each_rotor() {
-            let hub = self.felt_hub(r, (at.t, at.y), at.inputs, self.hub_motion(r, at.y, at.y_dot));
-            let loads = self.rotor_loads(r, at, &hub, |b, blade| blade_rows(l, b, blade, at, f));
-            shares.push(RotorShare { loads, beta_1c: self.flap_multiblade(r, at.t, at.y)[0] });
+            let spin = self.spin(r, at);
+            let hub = self.felt_hub(r, at.y, at.inputs, (self.hub_motion(r, at.y, at.y_dot), &spin.turning));
+            let loads = self.rotor_loads(r, at, (&hub, &spin), |b, blade| blade_rows(l, b, blade, at, f));
+            shares.push(RotorShare { loads, beta_1c: self.flap_multiblade(r, spin.psi, at.y)[0] });
         }
         self.shared_rows(at, &shares, f);
     }
@@ -76,7 +88,9 @@ impl System {
         shares: &[RotorShare<S>],
     ) -> AirframeLoads<S> {
         if at.inputs.vacuum() {
-            return self.loads_with(AirLoads::none(self.closed.len()), shares);
+            return self
+                .loads_with(AirLoads::none(self.closed.len()), shares)
+                .turned_by(self.hub_reaction(at));
         }
         let pitch = self.main().rigging.pitch(at.inputs.stick_at(at.t).map(Acting::felt));
         let settings = Settings {
@@ -84,10 +98,10 @@ impl System {
             stabilator_incidence: at.inputs.stabilator_incidence.felt(),
             closed_pitch: pitch[3],
             closed_inflow: &at.y[self.layout.closed_inflow()],
-            closed_speed: self.speed_ratio(0, at.t, at.inputs),
+            closed_speed: self.speed_ratio(0, at),
             wind: at.inputs.disturbance.as_ref().map(|d| wind_b(at.y, d.wind.map(Acting::felt))),
         };
-        self.loads_on_airframe(airframe, at.y, shares, &settings)
+        self.loads_on_airframe(airframe, at.y, shares, &settings).turned_by(self.hub_reaction(at))
     }
 
     /// Rotor loads and air loads on the body origin, for the motion of the airframe in y.
@@ -140,14 +154,18 @@ impl System {
         shares: &[RotorShare<S>],
         f: &mut [S],
     ) {
-        if let Carrier::Airframe(airframe) = &self.carrier {
-            self.airframe_rows(airframe, at, shares, f);
-        }
+        let drawn = match &self.carrier {
+            Carrier::Airframe(airframe) => {
+                self.airframe_rows(airframe, at, shares, f) + airframe.accessory_power
+            }
+            Carrier::Stand(_) => S::zero(),
+        };
+        self.drive_rows(at, shares, drawn, f);
         for ((r, _, l), share) in self.each_rotor().zip(shares) {
             if l.dynamic_inflow {
                 let i = l.inflow().start;
-                let hub =
-                    self.felt_hub(r, (at.t, at.y), at.inputs, self.hub_motion(r, at.y, at.y_dot)).velocity;
+                let moved = (self.hub_motion(r, at.y, at.y_dot), &self.spin(r, at).turning);
+                let hub = self.felt_hub(r, at.y, at.inputs, moved).velocity;
                 let rate = self.inflow_rate(r, hub, &share.loads, [at.y[i], at.y[i + 1], at.y[i + 2]]);
                 for k in 0..3 {
                     f[i + k] = at.y_dot[i + k] - rate[k];
@@ -156,14 +174,14 @@ impl System {
         }
     }
 
-    /// Balances of the airframe, its attitude and track, the inflow of the closed-form rotors.
+    /// Balances of the airframe, its attitude and track, the inflow of the closed-form rotors; returns the power of these [W].
     fn airframe_rows<S: Real, U: Acting<S>>(
         &self,
         airframe: &Airframe,
         at: &Instant<S, U>,
         shares: &[RotorShare<S>],
         f: &mut [S],
-    ) {
+    ) -> S {
         let (y, y_dot) = (at.y, at.y_dot);
         let velocity = body_vector(y, Layout::VELOCITY);
         let rates = body_vector(y, Layout::RATES);
@@ -197,5 +215,6 @@ impl System {
         for (i, rate) in self.layout.closed_inflow().zip(loads.closed_inflow_rate) {
             f[i] = y_dot[i] - rate;
         }
+        loads.closed_power
     }
 }

@@ -11,7 +11,7 @@ use crate::inflow::pitt_peters::DiskCondition;
 use crate::numerics::frames::{Body, Hub, Vec3};
 use crate::numerics::scalar::Real;
 use crate::rotor::hub::Rotor;
-use crate::rotor::speed::{RotorSpeed, Turning};
+use crate::rotor::speed::{RotorSpeed, Spin, Turning};
 
 /// Loads of a rotor on its hub, about the hub centre, in the axes its sense of rotation has ([`Sense`](crate::rotor::sense::Sense));
 /// `aero_*` the share of the air.
@@ -61,14 +61,36 @@ pub struct RotorShare<S> {
 }
 
 impl System {
-    /// Azimuth [rad] of blade `b` of rotor `r` at time `t`: read here and nowhere else.
+    /// Where rotor `r` is in its turn: read here and nowhere else, of the state where azimuth and speed are states, else of
+    /// the time.
     #[inline(always)]
-    pub fn azimuth(&self, r: usize, t: f64, b: usize) -> f64 {
-        let rotor = &self.rotors[r];
-        rotor.azimuth(rotor.turned(t), b)
+    pub fn spin<S: Real, U: Acting<S>>(&self, r: usize, at: &Instant<S, U>) -> Spin<S> {
+        match self.layout.rotors[r].spin() {
+            Some(place) => Spin {
+                psi: at.y[place.azimuth],
+                turning: Turning { omega: at.y[place.speed], omega_dot: at.y_dot[place.speed] },
+            },
+            None => {
+                let Turning { omega, omega_dot } = self.turning(r, at.t, at.inputs);
+                Spin {
+                    psi: S::cst(self.rotors[r].turned(at.t)),
+                    turning: Turning { omega: omega.felt(), omega_dot: omega_dot.felt() },
+                }
+            }
+        }
     }
 
-    /// Speed of rotor `r` and its rate at time `t`.
+    /// Azimuth [rad] of blade `b` of rotor `r` in the states `y` at time `t`.
+    #[inline(always)]
+    pub fn azimuth(&self, r: usize, t: f64, y: &[f64], b: usize) -> f64 {
+        let rotor = &self.rotors[r];
+        rotor.azimuth(
+            self.layout.rotors[r].spin().map_or_else(|| rotor.turned(t), |place| y[place.azimuth]),
+            b,
+        )
+    }
+
+    /// Speed of rotor `r` and its rate at time `t`, where they are given.
     #[inline(always)]
     pub fn turning<U: Real>(&self, r: usize, t: f64, inputs: &Inputs<U>) -> Turning<U> {
         let own = self.rotors[r].turning(t, inputs.t_start);
@@ -81,22 +103,23 @@ impl System {
 
     /// Speed of rotor `r` over its nominal one.
     #[inline(always)]
-    pub(super) fn speed_ratio<S: Real, U: Acting<S>>(&self, r: usize, t: f64, inputs: &Inputs<U>) -> S {
+    pub(super) fn speed_ratio<S: Real, U: Acting<S>>(&self, r: usize, at: &Instant<S, U>) -> S {
         let rotor = &self.rotors[r];
-        if matches!(rotor.speed, RotorSpeed::Constant) && inputs.disturbance.is_none() {
+        if matches!(rotor.speed, RotorSpeed::Constant) && at.inputs.disturbance.is_none() {
             return S::cst(1.0);
         }
-        self.turning(r, t, inputs).omega.felt() / rotor.omega
+        self.spin(r, at).turning.omega / rotor.omega
     }
 
-    /// Hub of rotor `r` as its blades feel it at time `t`, for its motion `hub` with the carrier in still air in the states `y`.
+    /// Hub of rotor `r` as its blades feel it, for its motion `hub` with the carrier in still air in the states `y` and for how it
+    /// turns.
     #[inline(always)]
     pub fn felt_hub<S: Real, U: Acting<S>>(
         &self,
         r: usize,
-        (t, y): (f64, &[S]),
+        y: &[S],
         inputs: &Inputs<U>,
-        mut hub: HubMotion<S>,
+        (mut hub, turning): (HubMotion<S>, &Turning<S>),
     ) -> HubMotion<S> {
         let rotor = &self.rotors[r];
         if let Some(disturbance) = &inputs.disturbance {
@@ -105,9 +128,7 @@ impl System {
         } else if matches!(rotor.speed, RotorSpeed::Constant) {
             return hub;
         }
-        let turning = self.turning(r, t, inputs);
-        Turning { omega: turning.omega.felt(), omega_dot: turning.omega_dot.felt() }
-            .carried_by(hub, rotor.omega)
+        turning.carried_by(hub, rotor.omega)
     }
 
     /// Motion of the hub of rotor `r` with its carrier in still air, as its sense of rotation has it.
@@ -116,16 +137,24 @@ impl System {
         self.carrier.hub_motion(&self.rotors[r], y, y_dot, self.gravity)
     }
 
-    /// Blade pitch of rotor `r` at time `t` and azimuth `psi`, with exact rates.
+    /// Pitch of blade `b` of rotor `r` at time `t`, with exact rates.
     #[inline(always)]
     pub fn blade_pitch<S: Real, U: Acting<S>>(
         &self,
         r: usize,
         inputs: &Inputs<U>,
-        (t, psi): (f64, f64),
+        (t, spin): (f64, &Spin<S>),
+        b: usize,
     ) -> PitchMotion<S> {
+        let rotor = &self.rotors[r];
+        if let RotorSpeed::Free(_) = rotor.speed {
+            let (stick, rate) = (inputs.stick_at(t).map(Acting::felt), inputs.stick_rate.map(Acting::felt));
+            return rotor.blade_pitch(stick, rate, rotor.azimuth(spin.psi, b), spin.turning).into();
+        }
+        // without the derivatives of the equations: a given speed has none
         let turning = self.turning(r, t, inputs);
-        let p = self.rotors[r].blade_pitch(inputs.stick_at(t), inputs.stick_rate, psi, turning);
+        let psi = U::cst(rotor.azimuth(rotor.turned(t), b));
+        let p = rotor.blade_pitch(inputs.stick_at(t), inputs.stick_rate, psi, turning);
         PitchMotion { theta: p.theta.felt(), theta_dot: p.theta_dot.felt(), theta_ddot: p.theta_ddot.felt() }
     }
 
@@ -168,11 +197,11 @@ impl System {
         &self,
         r: usize,
         at: &Instant<S, U>,
-        hub: &HubMotion<S>,
+        (hub, spin): (&HubMotion<S>, &Spin<S>),
         b: usize,
     ) -> BladeLoads<S> {
-        let psi = self.azimuth(r, at.t, b);
-        let control = self.blade_pitch(r, at.inputs, (at.t, psi));
+        let psi = self.rotors[r].azimuth(spin.psi, b);
+        let control = self.blade_pitch(r, at.inputs, (at.t, spin), b);
         let modal = self.modal_motion(r, at.y, at.y_dot, b);
         self.rotors[r].blade_loads(
             self.air,
@@ -189,7 +218,7 @@ impl System {
         &self,
         r: usize,
         at: &Instant<f64>,
-        hub: &HubMotion<f64>,
+        (hub, spin): (&HubMotion<f64>, &Spin),
         mut each: impl FnMut(usize, &BladeLoads<f64>),
     ) -> RotorLoads<f64> {
         let mut total = RotorLoads::zero();
@@ -198,11 +227,10 @@ impl System {
             // fewer than four left: the last stands in for those that are not there
             let blade = |k: usize| (first + k).min(n - 1);
             let poses = std::array::from_fn(|k| {
-                let psi = self.azimuth(r, at.t, blade(k));
                 (
-                    psi,
+                    self.rotors[r].azimuth(spin.psi, blade(k)),
                     self.modal_motion(r, at.y, at.y_dot, blade(k)),
-                    self.blade_pitch(r, at.inputs, (at.t, psi)),
+                    self.blade_pitch(r, at.inputs, (at.t, spin), blade(k)),
                 )
             });
             let inflow = std::array::from_fn(|k| self.blade_inflow(r, at.y, at.inputs, blade(k)));
@@ -215,17 +243,17 @@ impl System {
         total
     }
 
-    /// Cosine and sine of the first flap mode over the blades of rotor `r`, as angles [rad].
-    pub fn flap_multiblade<S: Real>(&self, r: usize, t: f64, y: &[S]) -> [S; 2] {
+    /// Cosine and sine of the first flap mode over the blades of rotor `r`, the first at azimuth `psi`, as angles [rad].
+    pub fn flap_multiblade<S: Real>(&self, r: usize, psi: S, y: &[S]) -> [S; 2] {
         let (rotor, l) = (&self.rotors[r], &self.layout.rotors[r]);
         let n = rotor.n_blades;
         let (mut cosine, mut sine) = (S::zero(), S::zero());
         // a blade that nothing moves does not flap
         for b in 0..if l.n_modes > 0 { n } else { 0 } {
             let flap = y[l.modal(b).start + rotor.blade.flap_mode] * rotor.flap_per_coordinate();
-            let (s, c) = self.azimuth(r, t, b).sin_cos();
-            cosine += flap * (2.0 * c / n as f64);
-            sine += flap * (2.0 * s / n as f64);
+            let (s, c) = rotor.azimuth(psi, b).sin_cos();
+            cosine += flap * (c * 2.0 / n as f64);
+            sine += flap * (s * 2.0 / n as f64);
         }
         [cosine, sine]
     }

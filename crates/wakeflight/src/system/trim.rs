@@ -3,7 +3,7 @@
 //! The periodic motion is that of the first rotor of the list; others with blades have no trim yet.
 
 use super::carrier::{Carrier, gravity_b};
-use super::instant::{HeldInflow, Inputs};
+use super::instant::{EngineInput, HeldInflow, Inputs};
 use super::layout::{Layout, body_vector};
 use super::model::System;
 use super::residual::Settings;
@@ -84,6 +84,9 @@ impl Host for System {
         {
             y[place] = value;
         }
+        for (_, rotor, l) in self.each_rotor() {
+            rotor.balanced(l, &mut y);
+        }
         let at_rest = vec![S::zero(); y.len()];
         let hub = self.hub_motion(0, &y, &at_rest);
         Carried { y, hub }
@@ -140,8 +143,12 @@ impl Trim<'_, System> {
         let l = system.layout.main();
         let mut y = system.carried(&self.layout.head(x)).y;
         let mut y_dot = vec![0.0; y.len()];
+        let psi = system.main().turned(t);
+        if let Some(place) = l.spin() {
+            (y[place.azimuth], y_dot[place.azimuth]) = (psi, system.main().omega);
+        }
         for b in 0..l.n_blades {
-            let m = self.motion(x, system.azimuth(0, t, b));
+            let m = self.motion(x, system.main().azimuth(psi, b));
             for (k, (q, s)) in l.modal(b).zip(l.modal_rate(b)).enumerate() {
                 (y[q], y[s]) = (m.q[k], m.q_dot[k]);
                 (y_dot[q], y_dot[s]) = (m.q_dot[k], m.q_ddot[k]);
@@ -160,6 +167,7 @@ impl Trim<'_, System> {
             t_start: 0.0,
             inflow: vec![inflow],
             stabilator_incidence: self.host().trim_stabilator(&head, &y),
+            engine: EngineInput::default(),
             disturbance: None,
         }
     }

@@ -22,13 +22,14 @@ use wakeflight::blade::strain::add_strain_gradient;
 use wakeflight::numerics::frames::Vec3;
 use wakeflight::numerics::scalar::{Dual, Real};
 use wakeflight::numerics::tables::Grid;
+use wakeflight::rotor::drive::{Drive, Governor};
 use wakeflight::rotor::lag_damper::LagDamper;
 use wakeflight::rotor::sense::Sense;
 use wakeflight::rotor::speed::{RotorSpeed, SpeedHistory};
 use wakeflight::rotor::swashplate::Rigging;
 use wakeflight::system::carrier::Stand;
 use wakeflight::system::data::{AircraftData, RiggedRotor, RotorData};
-use wakeflight::system::instant::{HeldInflow, Inputs, Instant};
+use wakeflight::system::instant::{EngineInput, HeldInflow, Inputs, Instant};
 use wakeflight::system::model::{Setting, System};
 
 pub const OMEGA: f64 = 27.0;
@@ -258,6 +259,13 @@ pub fn changing_speed(mut system: System, share: f64, seconds: f64) -> System {
     system
 }
 
+/// The same turned by a drive: with a governor, or by a torque that is given.
+pub fn driven(system: System, governed: bool) -> System {
+    let governor = Governor { power: 1.2e6, gains: [2.6e6, 3.3e6, 6.5e5], lag: 1.25 };
+    let drive = Drive { inertia: 1474.0, hub_inertia: 57.0, governor: governed.then_some(governor) };
+    system.with_drive(drive).unwrap()
+}
+
 pub fn inputs(stick: [f64; 4], inflow: HeldInflow) -> Inputs {
     Inputs {
         stick,
@@ -265,6 +273,7 @@ pub fn inputs(stick: [f64; 4], inflow: HeldInflow) -> Inputs {
         t_start: 0.0,
         inflow: vec![inflow],
         stabilator_incidence: 0.1,
+        engine: EngineInput::default(),
         disturbance: None,
     }
 }
@@ -295,6 +304,14 @@ pub fn random_state(system: &System, random: &mut Random) -> (Vec<f64>, Vec<f64>
         for i in l.inflow() {
             y[i] = 0.02 + 0.01 * random.next();
             y_dot[i] = 0.1 * random.next();
+        }
+        if let Some(place) = l.spin() {
+            (y[place.azimuth], y_dot[place.azimuth]) = (3.3, 0.94 * OMEGA);
+            (y[place.speed], y_dot[place.speed]) = (0.95 * OMEGA, -0.7);
+        }
+        if let Some(place) = l.engine() {
+            (y[place.integral], y_dot[place.integral]) = (-0.02, -1.3);
+            (y[place.power], y_dot[place.power]) = (1.1e6, 3e5);
         }
     }
     for i in layout.closed_inflow() {

@@ -8,12 +8,13 @@ use crate::blade::surroundings::BladeInflow;
 use crate::numerics::frames::Vec3;
 use crate::numerics::wide::{DIRECTIONS, Directional, Task, differentiate};
 use crate::rotor::hub::DamperSlopes;
+use crate::rotor::speed::{Spin, Turning};
 use crate::system::instant::{HeldInflow, Instant};
 use crate::system::layout::Layout;
 use crate::system::model::System;
 
-/// Own coordinates and rates, carrier velocity and rates, inflow.
-const MOST_DIRECTIONS: usize = 2 * MAX_MODES + 9;
+/// Own coordinates and rates, carrier velocity and rates, inflow, azimuth and speed.
+const MOST_DIRECTIONS: usize = 2 * MAX_MODES + 11;
 
 /// Derivatives of a blade's modal rows and loads on the hub, direction by direction.
 struct LoadSlopes {
@@ -52,13 +53,20 @@ impl Task for BladePass<'_> {
         for (s, &v) in disk.iter_mut().zip(&at.y[states.clone()]) {
             *s = S::cst(v);
         }
+        let (place, turn) = (l.spin(), l.spin_states());
+        let mut turned = [S::zero(); 2];
+        for (s, &v) in turned.iter_mut().zip(&at.y[turn.clone()]) {
+            *s = S::cst(v);
+        }
         for i in 0..m {
             modal.q[i] = S::cst(at.y[own + i]);
             modal.q_dot[i] = S::cst(at.y[own + m + i]);
             modal.q_ddot[i] = S::cst(at.y_dot[own + m + i]);
         }
         for (lane, &i) in self.directions.iter().enumerate() {
-            let number = if layout.carrier().contains(&i) {
+            let number = if turn.contains(&i) {
+                &mut turned[i - turn.start]
+            } else if layout.carrier().contains(&i) {
                 &mut carrier[i]
             } else if states.contains(&i) {
                 &mut disk[i - states.start]
@@ -69,10 +77,17 @@ impl Task for BladePass<'_> {
             };
             number.set_slope(lane, 1.0);
         }
+        let spin = match place {
+            Some(place) => Spin {
+                psi: turned[0],
+                turning: Turning { omega: turned[1], omega_dot: S::cst(at.y_dot[place.speed]) },
+            },
+            None => system.spin(r, at).constant(),
+        };
         let hub = system.hub_motion(r, &carrier, &carrier_dot);
-        let hub = system.felt_hub(r, (at.t, &carrier), at.inputs, hub);
-        let psi = system.azimuth(r, at.t, self.b);
-        let control = system.blade_pitch(r, at.inputs, (at.t, psi));
+        let hub = system.felt_hub(r, &carrier, at.inputs, (hub, &spin.turning));
+        let psi = system.rotors[r].azimuth(spin.psi, self.b);
+        let control = system.blade_pitch(r, at.inputs, (at.t, &spin), self.b);
         let inflow = match at.inputs.inflow[r] {
             HeldInflow::Dynamic => BladeInflow::Disk(disk),
             _ => system.blade_inflow(r, &[], at.inputs, self.b),
@@ -143,12 +158,14 @@ impl System {
     }
 }
 
-/// Entries of y along which a blade is differentiated: its own coordinates and rates, the carrier's motion, the inflow.
+/// Entries of y along which a blade is differentiated: its own coordinates and rates, the carrier's motion, the inflow, azimuth and
+/// speed.
 fn directions(layout: &Layout, r: usize, b: usize) -> ([usize; MOST_DIRECTIONS], usize) {
     let l = &layout.rotors[r];
     let mut all = [0; MOST_DIRECTIONS];
     let mut n = 0;
-    for i in (l.modal(b).start..l.modal_rate(b).end).chain(layout.carrier_motion()).chain(l.inflow()) {
+    let shared = layout.carrier_motion().chain(l.inflow()).chain(l.spin_states());
+    for i in (l.modal(b).start..l.modal_rate(b).end).chain(shared) {
         all[n] = i;
         n += 1;
     }

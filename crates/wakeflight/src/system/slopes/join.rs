@@ -1,18 +1,19 @@
 //! Chain rule: what the blades' loads carry of the blades' own and the shared states into the shared rows.
 
 use super::{Block, Slopes};
+use crate::system::instant::Instant;
 use crate::system::model::System;
 
 impl System {
     /// What acts by states.
-    pub(super) fn join(&self, t: f64, slopes: &mut Slopes) {
+    pub(super) fn join(&self, at: &Instant<f64>, slopes: &mut Slopes) {
         let n = slopes.shared.len();
         let mut b = 0;
         for blade in &mut slopes.blades {
             let r = blade.rotor;
             let (rotor, felt) = (&self.rotors[r], &slopes.rotors[r]);
             let flap = rotor.blade.flap_mode;
-            let (_, c) = self.azimuth(r, t, b).sin_cos();
+            let (s, c) = self.azimuth(r, at.t, at.y, b).sin_cos();
             let share = rotor.flap_per_coordinate() * 2.0 * c / rotor.n_blades as f64;
             product(&felt.by_loads, &blade.loads, &mut blade.on_shared, false);
             product(&felt.by_loads, &blade.loads_by_shared, &mut slopes.shared_y, true);
@@ -20,6 +21,16 @@ impl System {
             for i in 0..moved {
                 let direct = blade.on_shared.at(i, flap) + felt.by_flapping[i] * share;
                 blade.on_shared.set(i, flap, direct);
+            }
+            if let (Some(place), true) = (self.layout.rotors[r].spin(), blade.n_modes() > 0) {
+                // the flapping over the blades by the azimuth they share
+                let turned = -at.y[blade.modal.start + flap] * rotor.flap_per_coordinate() * 2.0 * s
+                    / rotor.n_blades as f64;
+                let column = slopes.place[place.azimuth];
+                for i in 0..n {
+                    let direct = slopes.shared_y.at(i, column) + felt.by_flapping[i] * turned;
+                    slopes.shared_y.set(i, column, direct);
+                }
             }
             b = (b + 1) % rotor.n_blades;
         }

@@ -33,13 +33,17 @@ impl System {
                 moving: self.layout.carrier_motion().len(),
                 turning: self.layout.attitude().len(),
             };
-            let (n, mass) = (rotor.n_blades, rotor.blade.mass);
+            let (n, mass, spin) = (rotor.n_blades, rotor.blade.mass, self.spin(r, at));
             for first in (0..n).step_by(4) {
                 // fewer than four left: the last stands in for those that are not there
                 let poses = std::array::from_fn(|k| {
                     let b = (first + k).min(n - 1);
-                    let psi = self.azimuth(r, at.t, b);
-                    (psi, self.modal_motion(r, at.y, still, b), self.blade_pitch(r, at.inputs, (at.t, psi)))
+                    let psi = rotor.azimuth(spin.psi, b);
+                    (
+                        psi,
+                        self.modal_motion(r, at.y, still, b),
+                        self.blade_pitch(r, at.inputs, (at.t, &spin), b),
+                    )
                 });
                 let masses = rotor.four_mass_matrices(&poses);
                 for (b, (blade, (_, modal, control))) in (first..n).zip(masses.iter().zip(&poses)) {
@@ -50,6 +54,7 @@ impl System {
             }
             offset += n;
         }
+        self.masses_of_turn(at, slopes);
     }
 
     /// Derivatives of the acceleration of hub `r` less gravity by the attitude quaternion; zero on a stand.

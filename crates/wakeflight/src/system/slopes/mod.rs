@@ -9,6 +9,7 @@ mod blade_pass;
 mod join;
 mod masses;
 mod shared_pass;
+mod turn;
 
 use super::instant::Instant;
 use super::layout::Layout;
@@ -239,13 +240,15 @@ impl System {
             let mut loads = RotorLoads::zero();
             for b in 0..rotor.n_blades {
                 loads.add(&self.blade_slopes(at, b, &mut slopes.blades[first + b], &slopes.place));
+                self.damper_by_turn(at, b, &mut slopes.blades[first + b], &slopes.place);
             }
             first += rotor.n_blades;
-            shares.push(RotorShare { loads, beta_1c: self.flap_multiblade(r, at.t, at.y)[0] });
+            shares
+                .push(RotorShare { loads, beta_1c: self.flap_multiblade(r, self.spin(r, at).psi, at.y)[0] });
         }
         self.shared_slopes(at, &shares, slopes);
         self.masses(at, slopes);
-        self.join(at.t, slopes);
+        self.join(at, slopes);
         slopes.join_masses();
     }
 
@@ -258,7 +261,7 @@ impl System {
             let shares: Vec<RotorShare<f64>> = (0..self.rotors.len())
                 .map(|r| RotorShare {
                     loads: RotorLoads::zero(),
-                    beta_1c: self.flap_multiblade(r, at.t, at.y)[0],
+                    beta_1c: self.flap_multiblade(r, self.spin(r, at).psi, at.y)[0],
                 })
                 .collect();
             self.shared_slopes(at, &shares, slopes);

@@ -12,7 +12,7 @@ use crate::system::rotor_loads::{RotorLoads, RotorShare};
 enum Direction {
     /// A shared state.
     State(usize),
-    /// An acceleration of the carrier.
+    /// An acceleration of the carrier or of the speed of a rotor.
     Acceleration(usize),
     /// A load of a rotor.
     Load(usize, usize),
@@ -21,22 +21,25 @@ enum Direction {
 }
 
 impl System {
-    /// Derivatives of the shared rows by shared states, rates of the carrier's motion, loads and flapping of the rotors.
+    /// Derivatives of the shared rows by shared states, rates of the carrier's motion and of the speeds, loads and flapping of the rotors.
     pub(super) fn shared_slopes(&self, at: &Instant<f64>, shares: &[RotorShare<f64>], slopes: &mut Slopes) {
         let n = slopes.shared.len();
         let moving = self.layout.carrier_motion().end;
-        // the carrier's own inertia does not change: found once
-        let n_rates = if slopes.carrier_known { 0 } else { moving };
         // rows of kinematics and inflow hold their own rate alone
         for i in moving..n {
             slopes.alone_dot.set(i, i, 1.0);
         }
+        // the inertia of carrier and hubs does not change: found once
+        let speeds = self.layout.rotors.iter().filter_map(|l| l.spin()).map(|p| slopes.place[p.speed]);
+        let accelerated: Vec<usize> =
+            if slopes.carrier_known { Vec::new() } else { (0..moving).chain(speeds).collect() };
+        let n_rates = accelerated.len();
         let direction = |k: usize| {
             if k < n {
                 return Direction::State(k);
             }
             if k < n + n_rates {
-                return Direction::Acceleration(k - n);
+                return Direction::Acceleration(accelerated[k - n]);
             }
             let (r, j) = ((k - n - n_rates) / (N_LOADS + 1), (k - n - n_rates) % (N_LOADS + 1));
             if j < N_LOADS { Direction::Load(r, j) } else { Direction::Flapping(r) }
@@ -50,7 +53,7 @@ impl System {
             for lane in 0..lanes {
                 match direction(first + lane) {
                     Direction::State(k) => slopes.y[slopes.shared[k]].eps[lane] = 1.0,
-                    Direction::Acceleration(k) => slopes.y_dot[k].eps[lane] = 1.0,
+                    Direction::Acceleration(k) => slopes.y_dot[slopes.shared[k]].eps[lane] = 1.0,
                     Direction::Load(r, j) => loads[r][j].eps[lane] = 1.0,
                     Direction::Flapping(r) => flapping[r].eps[lane] = 1.0,
                 }
@@ -75,7 +78,7 @@ impl System {
                 }
                 match direction {
                     Direction::State(k) => slopes.y[slopes.shared[k]].eps[lane] = 0.0,
-                    Direction::Acceleration(k) => slopes.y_dot[k].eps[lane] = 0.0,
+                    Direction::Acceleration(k) => slopes.y_dot[slopes.shared[k]].eps[lane] = 0.0,
                     Direction::Load(..) | Direction::Flapping(_) => {}
                 }
             }
