@@ -74,7 +74,18 @@ pub fn advanced<L: Law, S: Real>(
     dt: f64,
     states: &States<S>,
 ) -> States<S> {
-    let old = law.drives(section, before, states);
+    followed(law, section, states, &law.drives(section, before, states), after, dt)
+}
+
+/// States `dt` [s] after they were `states` under the drives `old`, in the flow `after`.
+pub fn followed<L: Law, S: Real>(
+    law: &L,
+    section: &Section,
+    states: &States<S>,
+    old: &[Drive<S>; MAX_STATES],
+    after: &Flow<S>,
+    dt: f64,
+) -> States<S> {
     let mut new = *states;
     for stage in 0..stages::<L>() {
         let drives = law.drives(section, after, &new);
