@@ -12,7 +12,7 @@ from vortex import helices, numpy_sum
 
 import wakeflight as wf
 from wakeflight import _core
-from wakeflight.exchange import MarchingExchange
+from wakeflight.exchange import Exchange
 from wakeflight.inflow import trim_model
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -114,7 +114,7 @@ def isolated_rotor() -> str:
     for evaluation in ("pece", "pec"):
         inflow = wf.TimeMarchingWake(**options, evaluation=evaluation)
         start = wf.tunnel("uh60a", collective="14 deg", inflow=inflow, revolutions=1, **wind).solution
-        march = MarchingExchange(start.model, start.wake)
+        march = Exchange.marching(start.model, start.wake)
         before, begun, busy = march.segment_evaluations, time.perf_counter(), time.process_time()
         for _ in range(432):
             march.frozen_step(start.problem, start.x)

@@ -19,11 +19,13 @@ import numpy as np
 
 import wakeflight as wf
 from wakeflight.model import Model
+from wakeflight.progress import Silent
 from wakeflight.trim import Trim
-from wakeflight.trim_equations import dynamic_map
-from wakeflight.trim_results import FIELDS, first_harmonics, instants
-from wakeflight.trim_solve import solve_condition, solve_on_map
-from wakeflight.wake_trim import WakeInTrim
+from wakeflight.trim.aircraft import AircraftOnWake
+from wakeflight.trim.dataset import FIELDS
+from wakeflight.trim.equations import dynamic_map
+from wakeflight.trim.solve import solve_condition
+from wakeflight.trim.wake import WakeInTrim
 
 PASSES = 3
 COMMON = {"azimuth_step": "15 deg", "turns": 3.0, "max_loops": 15}
@@ -124,13 +126,14 @@ def limited_trim(aircraft: wf.Aircraft, condition: wf.FlightCondition, inflow: w
     model = Model.build(aircraft, condition, inflow)
     inflow_map, _ = dynamic_map(simple, problem, x, model.steps_per_revolution)
     x, wake, history = np.delete(x, slice(7, 10)), WakeInTrim(model, inflow_map), []
+    trimming = AircraftOnWake(model, Silent())
     for _ in range(PASSES):
-        problem, x = solve_on_map(model, inflow_map, x)
+        problem, x = trimming.solve(inflow_map, x)
         wake.converge(problem, x)
         inflow_map = wake.inflow_map
         history.append(dict(wake.last))
-    problem, x = solve_on_map(model, inflow_map, x)
-    return Trim(model, problem, x, inflow_map, wake.circulation, wake, 0.0, history)
+    problem, x = trimming.solve(inflow_map, x)
+    return Trim(model, problem, x, inflow_map, wake.circulation, wake, history)
 
 
 def run(aircraft: wf.Aircraft, condition: str, options: dict) -> dict:
@@ -143,13 +146,10 @@ def run(aircraft: wf.Aircraft, condition: str, options: dict) -> dict:
         start = limited_trim(aircraft, flown, inflow) if dear else wf.trim(aircraft, flown, inflow=inflow)
     except wf.NumericalFailure as failure:
         return {"failure": str(failure), "cpu_seconds": time.process_time() - started}
-    mean, maps = start.mean_outputs(), {name: np.empty_like(start.inflow_map) for name in FIELDS}
-    for rows, out in instants(start):
-        for name, values in maps.items():
-            values[rows] = out[name]
+    mean, maps = start.mean_outputs(), start.maps(*FIELDS)
     turn = start.inflow_map.shape[0] + 1
     path = tip_vortex(start.wake.relaxation, options.get("n_trailers", 1))[:, :turn] / start.model.rotor["radius"]
-    lambda_0, lambda_1c, lambda_1s = first_harmonics(start)
+    lambda_0, lambda_1c, lambda_1s = start.inflow_harmonics()
     return {
         "lambda_0": lambda_0,
         "lambda_1c": lambda_1c,

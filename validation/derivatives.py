@@ -23,7 +23,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from wakeflight.trim import Trim
-from wakeflight.trim_equations import trim_problem
+from wakeflight.trim.equations import trim_problem
 
 STATES = ("u", "w", "q", "theta", "v", "p", "phi", "r")
 CONTROLS = ("theta_0", "theta_1s", "theta_1c", "theta_tr")
@@ -83,16 +83,10 @@ def balances(
     condition = copy(trim.condition)
     for name, value in (("speed", speed), ("flight_path", climb), ("turn_rate", turn_rate)):
         object.__setattr__(condition, name, value)
-    problem = trim_problem(replace(trim.model, condition=condition), None, _harmonics(trim))
+    problem = trim_problem(replace(trim.model, condition=condition), None)
     y = trim.x.copy() if x is None else x.copy()
     y[4:7] = roll, pitch, -np.arctan2(east, north)
     return trim.model.core.trim_residual(problem, y)
-
-
-def _harmonics(trim: Trim) -> int:
-    """Harmonics of the blades' motion in the trim's own problem."""
-    modes = trim.model.core.trim_layout(trim.problem).modes
-    return (modes[1] - modes[0] - 1) // 2
 
 
 def linear_model(

@@ -24,10 +24,10 @@ ROOMS = {
     "report": ("report",),
     "plotting": ("plotting",),
     "export": ("export",),
-    "flight": ("flight*", "fly", "recorder", "simulation*", "snapshot", "integrators", "controls"),
+    "flight": ("flight*", "recorder", "simulation", "stepping", "snapshot", "integrators"),
     "tunnel": ("tunnel",),
-    "trim": ("trim*",),
-    "exchange": ("exchange", "wake_trim"),
+    "trim": ("trim",),
+    "exchange": ("exchange",),
     "model": ("model", "modes", "vortex", "wing", "airfoil_loop"),
     "monitors": ("monitors", "limits"),
     "aircraft": ("aircraft", "thinning"),
@@ -53,6 +53,7 @@ BEFORE = {
     "places that tell one wake option (with its command-line flag)": "14 (26)",
     "lines of bindings and stub": 2462,
     "lines of stand, trim, exchange and flight in Python": 3590,
+    "the same with what they report": 4168,
     "places that tell kinds apart": 62,
     "import circles, annotations included": 12,
     "functions allowed many arguments": 27,
@@ -158,7 +159,7 @@ def draw(house: House, path: Path) -> None:
     height = max(y for _, y in places.values()) + 1.0
     figure, axes = plt.subplots(figsize=(1.15 * width + 0.6, 0.78 * height + 0.4))
     colours = {"python": ("#e8f0fa", "#2b5d94"), "border": ("#f3e9d2", "#8a6d1f"), "rust": ("#f8e4dc", "#a2431b")}
-    for corners in routes.values():
+    for _, corners in sorted(routes.items()):
         axes.add_patch(
             FancyArrowPatch(
                 path=_curve(corners, Line),
@@ -183,7 +184,7 @@ def draw(house: House, path: Path) -> None:
                 },
                 zorder=2,
             )
-    for room, (x, y) in places.items():
+    for room, (x, y) in sorted(places.items()):
         kind = "border" if room == "_core" else ("rust" if room.endswith(" ") else "python")
         face, edge = colours[kind]
         box = FancyBboxPatch(
@@ -279,6 +280,7 @@ def numbers_table(house: House) -> str:
         **BY_HAND,
         "lines of bindings and stub": house.lines_of_bindings,
         "lines of stand, trim, exchange and flight in Python": house.lines_of_verbs,
+        "the same with what they report": house.lines_of_verbs_whole,
         "places that tell kinds apart": len(house.kinds_told_apart),
         "import circles, annotations included": len(house.python_circles) + len(house.rust_circles),
         "functions allowed many arguments": sum(n for name, n in house.many_arguments if "/src/" in name),

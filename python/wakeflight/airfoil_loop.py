@@ -20,13 +20,6 @@ if TYPE_CHECKING:
 
 MOTIONS = ("pitch", "plunge")
 COLUMNS = ("phase", "alpha", "cl", "cl_circulatory", "cd", "cm", "cn", "alpha_effective", "separation", "work")
-REFERENCES = {
-    "quasi-steady": (),
-    "attached": ("leishman1989", "lomax1952"),
-    "oye": ("oye1991",),
-    "hgm": ("hansen2004", "jones1940"),
-}
-"""Sources of each model."""
 
 
 def airfoil_loop(
@@ -85,7 +78,7 @@ def airfoil_loop(
         **told,
         "cycles": cycle.cycles,
         "warnings": "\n".join(section.warnings),
-        "references": ", ".join(dict.fromkeys((*REFERENCES[model], *section.references))),
+        "references": ", ".join(dict.fromkeys((*cycle.sources, *section.references))),
     }
     return assemble_loop(arrays, attributes)
 

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, ClassVar, Protocol
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -19,14 +19,37 @@ class Trimmed(Protocol):
 
 
 class Exchange:
-    """An inflow model in flight. Maps by azimuth, far inflow, convection of the sheet, the wake itself are the core's."""
+    """An inflow model in flight. Maps by azimuth, far inflow, convection of the sheet, the wake itself are the core's.
 
-    marches: ClassVar[bool] = False
-    """Whether the wake goes through a convergence phase before the flight."""
+    A time-marching wake is exchanged every coupling step [ribera2004, bhagwat2001], in one call of the core: circulation from
+    states and held far inflow, wake one step, far inflow anew, circulation again; `recorrect`, `extrapolate` and
+    `update_interval` of the model go beyond it. What only such a wake has stands below the line.
+    """
 
     def __init__(self, model: CompiledRotor, core: _core.Exchange):
         self.model, self.core = model, core
         self.n = model.steps_per_revolution
+        self._frozen: tuple | None = None
+
+    @classmethod
+    def dynamic(cls, model: CompiledRotor) -> Exchange:
+        """Dynamic inflow, which is in the state."""
+        return cls(model, _core.Exchange.dynamic(model.core, model.steps_per_revolution))
+
+    @classmethod
+    def relaxation(cls, model: CompiledRotor, trimmed: Trimmed, motion: tuple[np.ndarray, np.ndarray]) -> Exchange:
+        """The relaxation wake of a trim in flight; periodic motion (n, n_modes) of its blades."""
+        return cls(model, _core.Exchange.relaxation(model.core, trimmed.core, motion, model.wake_options))
+
+    @classmethod
+    def marching(cls, model: CompiledRotor, trimmed: Trimmed) -> Exchange:
+        """A marching wake with the options of `model` from the periodic one of a trim."""
+        return cls(model, _core.Exchange.marching(model.core, trimmed.core, model.wake_options))
+
+    @classmethod
+    def unpacked(cls, model: CompiledRotor, packed: bytes) -> Exchange:
+        """The exchange of `model` as it was when the core packed it."""
+        return cls(model, _core.Exchange.from_bytes(packed))
 
     def rows(self, step: int) -> list[int]:
         """Azimuth index of every blade after `step` steps."""
@@ -50,9 +73,11 @@ class Exchange:
     ) -> None:
         """States have reached `step`: a marching wake follows, a relaxation wake is renewed where that is due.
 
-        motion: modal coordinates and rates (n_blades, n_modes) that stand for those of `y`.
+        stick, stick_rate: controls as the trim has them; a rotor on a stand has no use for the fourth. motion: modal coordinates
+        and rates (n_blades, n_modes) that stand for those of `y`.
         """
-        self.core.advance(self.model.core, step, y, (stick, stick_rate), motion)
+        n = self.model.n_controls
+        self.core.advance(self.model.core, step, y, (stick[:n], stick_rate[:n]), motion)
 
     def tips(self, step: int) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
         """Tip vortices after `step` steps, None without a wake.
@@ -87,27 +112,15 @@ class Exchange:
         """Counted evaluations of the segment law."""
         return int(self.core.segment_evaluations)
 
+    # --- of a marching wake ---------------------------------------------------------------------------------
 
-class MarchingExchange(Exchange):
-    """Time-marching free wake, exchanged every coupling step [ribera2004, bhagwat2001].
-
-    The exchange is one call of the core: circulation from states and held far inflow, wake one step, far inflow anew,
-    circulation again; `recorrect`, `extrapolate` and `update_interval` of the model go beyond it.
-    """
-
-    marches: ClassVar[bool] = True
-
-    def __init__(self, model: CompiledRotor, trimmed: Trimmed | None, core: _core.Exchange | None = None):
-        super().__init__(model, core or marching(model, trimmed))
-        self._frozen: tuple | None = None
-
-    def copy(self) -> MarchingExchange:
+    def copy(self) -> Exchange:
         """The same wake at the same moment, to be marched on its own."""
-        return MarchingExchange(self.model, None, self.core.copy())
+        return Exchange(self.model, self.core.copy())
 
     @property
     def step_index(self) -> int:
-        """Steps since the start."""
+        """Steps of the wake since the start."""
         return self.core.steps
 
     @property
@@ -125,17 +138,6 @@ class MarchingExchange(Exchange):
         """Inflow without that of the own near wake (n_blades, n_stations)."""
         return self.core.lambda_far
 
-    def advance(
-        self,
-        y: np.ndarray,
-        stick: np.ndarray,
-        stick_rate: np.ndarray,
-        motion: tuple[np.ndarray, np.ndarray] | None = None,
-    ) -> np.ndarray:
-        """`reach` the next step; returns the total inflow (n_blades, n_stations)."""
-        self.reach(self.step_index + 1, y, stick, stick_rate, motion)
-        return self.inflow
-
     def turn(self, problem: Any, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """A revolution with states and controls of the trim, circulation following the inflow.
 
@@ -147,9 +149,9 @@ class MarchingExchange(Exchange):
     def frozen_step(self, problem: Any, x: np.ndarray) -> tuple[list[int], np.ndarray, np.ndarray]:
         """One such step: azimuth index of every blade, its inflow and circulation."""
         (q, q_dot), y = self._trimmed(problem, x)
-        rows = self.rows(self.step_index + 1)
-        controls = x[: self.model.n_controls]
-        self.advance(y, controls, np.zeros(len(controls)), (q[rows], q_dot[rows]))
+        step = self.step_index + 1
+        rows = self.rows(step)
+        self.reach(step, y, x, np.zeros_like(x), (q[rows], q_dot[rows]))
         return rows, self.inflow, self.circulation
 
     def _trimmed(self, problem: Any, x: np.ndarray) -> tuple[tuple[np.ndarray, np.ndarray], np.ndarray]:
@@ -172,32 +174,11 @@ class MarchingExchange(Exchange):
         return self.core.wake()
 
 
-def marching(model: CompiledRotor, trimmed: Trimmed) -> _core.Exchange:
-    """A marching wake with the options of `model` from the periodic one of a trim."""
-    return _core.Exchange.marching(model.core, trimmed.core, model.wake_options)
-
-
-def relaxation(model: CompiledRotor, trimmed: Trimmed, motion: tuple[np.ndarray, np.ndarray]) -> _core.Exchange:
-    """The relaxation wake of a trim in flight; periodic motion (n, n_modes) of its blades."""
-    return _core.Exchange.relaxation(model.core, trimmed.core, motion, model.wake_options)
-
-
-def dynamic(model: CompiledRotor) -> _core.Exchange:
-    """Dynamic inflow, which is in the state."""
-    return _core.Exchange.dynamic(model.core, model.steps_per_revolution)
-
-
-def exchange_from(model: CompiledRotor, packed: bytes) -> Exchange:
-    """The exchange of `model` as it was when the core packed it."""
-    core = _core.Exchange.from_bytes(packed)
-    return MarchingExchange(model, None, core) if model.inflow.name == "time-marching" else Exchange(model, core)
-
-
 def exchange_of(model: CompiledRotor, trimmed: Trimmed | None, motion: Callable[[], Any]) -> Exchange:
     """The exchange of `model` from the wake of a trim; `motion` gives the periodic motion of its blades."""
     kinds: dict[str, Callable[[], Exchange]] = {
-        "dynamic": lambda: Exchange(model, dynamic(model)),
-        "relaxation": lambda: Exchange(model, relaxation(model, trimmed, motion())),
-        "time-marching": lambda: MarchingExchange(model, trimmed),
+        "dynamic": lambda: Exchange.dynamic(model),
+        "relaxation": lambda: Exchange.relaxation(model, trimmed, motion()),
+        "time-marching": lambda: Exchange.marching(model, trimmed),
     }
     return kinds[model.inflow.name]()

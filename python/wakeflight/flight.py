@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .errors import InputError, NumericalFailure
+from .flight_monitors import monitors
 from .inflow import InflowModel
 from .maneuvers import ROUNDING, Maneuver
 from .model import Model
@@ -159,7 +160,8 @@ def fly(
 
     if recorder.n_recorded == 0:
         raise NumericalFailure(failure)
-    for text in monitored(recorder.monitors):
+    watched = monitors(recorder)
+    for text in monitored(watched):
         warnings.append(text)
         progress(f"warning: {text}")
     attributes = {
@@ -173,7 +175,7 @@ def fly(
         "blades": "flexible" if start.aircraft.flexible else "rigid",
         **sim.solver.statistics,
     }
-    data = recorder.dataset(attributes, warnings, failure)
+    data = recorder.dataset(attributes, watched, warnings, failure)
     flight = Flight(start, maneuver, data, tuple(warnings), failure)
     if failure is not None:
         raise NumericalFailure(failure, partial=flight)

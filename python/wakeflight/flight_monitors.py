@@ -1,42 +1,13 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""The monitors of a flight: of every sample while it flies, and of the whole once it has ended."""
+"""The monitors of a flight, of all that was recorded."""
 
 from __future__ import annotations
 
-import math
-from typing import TYPE_CHECKING
-
 import numpy as np
 
-from .errors import NumericalFailure
-from .limits import stall_along_span, table_end
-from .model import Model
 from .monitors import Monitor, Places, airframe, rotor
-
-if TYPE_CHECKING:
-    from .recorder import Recorder
-
-
-def check_sample(
-    model: Model, t: float, y: np.ndarray, stick: np.ndarray, azimuth: np.ndarray, inflow: np.ndarray, mach: np.ndarray
-) -> None:
-    """End the flight at a sample that the motion of the rotor cannot give; inflow and mach (n_blades, n_stations)."""
-    bounds = model.bounds
-    u, v, w, p, q, r = y[:6].tolist()
-    speed, rate = math.sqrt(u * u + v * v + w * w), math.sqrt(p * p + q * q + r * r)
-    largest = max(inflow.max(), -inflow.min())
-    # within these in any motion: no need to look closer
-    if largest <= bounds.least_inflow and mach.max() <= bounds.least_mach(speed, rate):
-        return
-    places = Places(bounds.station, azimuth[None], np.array([t]))
-    velocity = np.asarray(model.core.hub(y)[0]) / model.tip_speed
-    theta = model.pitch_controls(stick)[[2, 0, 1]]
-    _, bound = bounds.inflow(velocity, theta)
-    fastest = bounds.mach(speed, rate, bounds.section(velocity, theta))
-    if largest > bound:
-        raise NumericalFailure(rotor.beyond_motion(largest, bound, places.of(np.abs(inflow)[None])))
-    if mach.max() > fastest:
-        raise NumericalFailure(rotor.faster_than_motion(mach.max(), fastest, places.of(mach[None])))
+from .recorder import Recorder
+from .trim.monitors import section_monitors
 
 
 def monitors(run: Recorder) -> tuple[Monitor, ...]:
@@ -45,34 +16,19 @@ def monitors(run: Recorder) -> tuple[Monitor, ...]:
     if n == 0:
         return ()
     time, y, stick = run.time[:n], run.state[:n], run.stick[:n]
-    tables = model.rotor_tables["airfoil"]
     places = Places(model.bounds.station, run.azimuth[:n], time)
     fields = {name: run.blade[name][:n] for name in ("inflow", "mach", "alpha")}
     velocity = np.array([model.core.hub(row)[0] for row in y]) / model.tip_speed
     mu, mu_z = np.hypot(velocity[:, 0], velocity[:, 1]), -velocity[:, 2]
     theta = np.array([model.pitch_controls(row) for row in stick])[:, [2, 0, 1]]
-    usual, bound = model.bounds.inflow(velocity, theta)
-    section = model.bounds.section(velocity, theta)
-    fastest = model.bounds.mach(np.linalg.norm(y[:, :3], axis=1), np.linalg.norm(y[:, 3:6], axis=1), section)
-    tip_mach = model.tip_speed / model.speed_of_sound
+    motion = (np.linalg.norm(y[:, :3], axis=1), np.linalg.norm(y[:, 3:6], axis=1))
     passage = model.steps_per_revolution // model.n_blades
     names = ("lateral", "longitudinal", "collective", "pedal")
     inches = dict(zip(names, stick.T / 0.0254, strict=True))
     engine = rotor.over_passage(run.scalars["power"][:n], passage)
     shaft = rotor.over_passage(-model.hand * run.loads["hub_moment"][:n, 2], passage)
     found = [
-        rotor.induced_velocity(fields["inflow"], usual, bound, places),
-        rotor.mach_number(fields["mach"], fastest, table_end(tables), places),
-        rotor.angle_of_attack(fields["alpha"], places),
-        rotor.stall(
-            stall_along_span(tables, model.stations),
-            fields["alpha"],
-            fields["mach"],
-            model.area_weights,
-            tip_mach,
-            places,
-            passage,
-        ),
+        *section_monitors(model, fields, velocity, theta, motion, places, passage),
         rotor.axial_flow(mu, mu_z, run.scalars["ct"][:n], model.inflow.is_dynamic, time),
         *airframe.sticks(inches, aircraft.stick_travel_in, time),
         airframe.power(engine, aircraft.limits.power, time),

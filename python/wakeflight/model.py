@@ -42,6 +42,8 @@ class CompiledRotor:
     inflow: InflowModel
     core: Any
     speed_of_sound: float
+    n_harmonics: int
+    """Harmonics of the blades' periodic motion in its trims."""
     n_controls: ClassVar[int]
     """How many controls stand at the head of the unknowns."""
 
@@ -192,11 +194,17 @@ class Model(CompiledRotor):
     speed_of_sound: float
     target: Target | None = None
     """What a trim meets with a part of the condition's path left free."""
+    n_harmonics: int = 8
     n_controls: ClassVar[int] = 4
 
     @classmethod
     def build(
-        cls, aircraft: Aircraft, condition: FlightCondition, inflow: InflowModel, target: Target | None = None
+        cls,
+        aircraft: Aircraft,
+        condition: FlightCondition,
+        inflow: InflowModel,
+        target: Target | None = None,
+        n_harmonics: int = 8,
     ) -> Model:
         """Compile; the tip loss is off and the inflow states are out of y with a free wake.
 
@@ -209,7 +217,7 @@ class Model(CompiledRotor):
         resolved = resolution(aircraft.discretisation, inflow.n_stations)
         chosen = setting((density, speed_of_sound), not inflow.is_dynamic, resolved)
         core = _core.System.aircraft(json.dumps(data), chosen)
-        return cls(aircraft, condition, inflow, core, data, density, speed_of_sound, target)
+        return cls(aircraft, condition, inflow, core, data, density, speed_of_sound, target, n_harmonics)
 
     @property
     def hand(self) -> float:
@@ -261,7 +269,7 @@ class Model(CompiledRotor):
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Compiled anew where it is needed."""
-        return Model.build, (self.aircraft, self.condition, self.inflow, self.target)
+        return Model.build, (self.aircraft, self.condition, self.inflow, self.target, self.n_harmonics)
 
     @property
     def rotor_tables(self) -> dict[str, Any]:

@@ -204,3 +204,8 @@ def resolved(values: dict[str, Any], regime: str) -> dict[str, Any]:
 def described(name: str) -> str:
     """The defaults of an option of a free wake in words: `by regime: 4 forward, 5 hover and climb, 8 axial descent`."""
     return next(option for option in DECLARED if option.name == name).default_in_words
+
+
+def choices(name: str) -> str:
+    """What may be given for an option of a free wake: `bdf2, pc2b, pcc`."""
+    return next(option for option in DECLARED if option.name == name).allowed

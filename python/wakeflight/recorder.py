@@ -4,21 +4,21 @@
 from __future__ import annotations
 
 import math
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .flight_monitors import check_sample, monitors
+from .errors import NumericalFailure
 from .maneuvers import Maneuver
 from .model import Model
 from .modes import mode_labels
-from .monitors import Monitor, variables
+from .monitors import Monitor, Places, rotor, variables
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from .simulation import ConvergencePhase, Instant, Simulation
+    from .simulation import ConvergencePhase, Simulation
+    from .stepping import Instant
 
 SNAPSHOTS_PER_REVOLUTION = 4
 LARGEST_SHEET = 5_000_000  # numbers; larger lattices of full-span wakes are not kept
@@ -109,8 +109,10 @@ class Recorder:
             self.sheets.append(self.exchange.lattice(step))
         self.snapshot_revolution.append(step / self.model.steps_per_revolution)
 
-    def dataset(self, attributes: dict[str, Any], warnings: list[str], failure: str | None) -> xr.Dataset:
-        """The run's Dataset, whole or up to where it stopped."""
+    def dataset(
+        self, attributes: dict[str, Any], monitors: tuple[Monitor, ...], warnings: list[str], failure: str | None
+    ) -> xr.Dataset:
+        """The run's Dataset, whole or up to where it stopped; monitors: what is watched of the whole flight."""
         from .results import assemble
 
         model, n = self.model, self.n_recorded
@@ -137,7 +139,7 @@ class Recorder:
         arrays |= {name: values[:n] for name, values in self.scalars.items() if name != "load_power"}
         del arrays["vortex_blade_distance"]
         arrays["energy_balance"] = self.energy_balance()
-        arrays |= variables(self.monitors)
+        arrays |= variables(monitors)
         arrays |= {name: values[:n] for name, values in self.blade_angles.items()}
         if not model.inflow.is_dynamic:
             arrays |= self._wake_arrays(self.phase)
@@ -174,11 +176,6 @@ class Recorder:
             # without a convergence phase the wake has not been stepped yet: the first step's stands for the start
             distance[0] = distance[1]
         return distance
-
-    @cached_property
-    def monitors(self) -> tuple[Monitor, ...]:
-        """What is watched of the whole flight, asked for when it has ended."""
-        return monitors(self)
 
     def _modal(self, y: np.ndarray) -> np.ndarray:
         """Modal coordinates (time, blade, mode) as fractions of the tip deflection: angle of the tip in the mode [rad]."""
@@ -251,6 +248,28 @@ class Recorder:
             "power": mean["power"],
             "revolutions": (self.n_recorded - 1) / model.steps_per_revolution,
         }
+
+
+def check_sample(
+    model: Model, t: float, y: np.ndarray, stick: np.ndarray, azimuth: np.ndarray, inflow: np.ndarray, mach: np.ndarray
+) -> None:
+    """End the flight at a sample that the motion of the rotor cannot give; inflow and mach (n_blades, n_stations)."""
+    bounds = model.bounds
+    u, v, w, p, q, r = y[:6].tolist()
+    speed, rate = math.sqrt(u * u + v * v + w * w), math.sqrt(p * p + q * q + r * r)
+    largest = max(inflow.max(), -inflow.min())
+    # within these in any motion: no need to look closer
+    if largest <= bounds.least_inflow and mach.max() <= bounds.least_mach(speed, rate):
+        return
+    places = Places(bounds.station, azimuth[None], np.array([t]))
+    velocity = np.asarray(model.core.hub(y)[0]) / model.tip_speed
+    theta = model.pitch_controls(stick)[[2, 0, 1]]
+    _, bound = bounds.inflow(velocity, theta)
+    fastest = bounds.mach(speed, rate, bounds.section(velocity, theta))
+    if largest > bound:
+        raise NumericalFailure(rotor.beyond_motion(largest, bound, places.of(np.abs(inflow)[None])))
+    if mach.max() > fastest:
+        raise NumericalFailure(rotor.faster_than_motion(mach.max(), fastest, places.of(mach[None])))
 
 
 def keeps_sheets(model: Model, n_steps: int) -> bool:

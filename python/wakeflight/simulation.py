@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """A flight that can be stepped, kept and continued: one owner of everything that changes [ribera2004, Fig. 2].
 
-1. Trim with the relaxation wake (`trim.py`). 2. Convergence phase: states and controls frozen, the time-marching wake
+1. Trim with the relaxation wake (`trim/`). 2. Convergence phase: states and controls frozen, the time-marching wake
 advanced. 3. The wake gives the inflow at every blade station, held while the solver integrates F(y_dot, y, u; t) = 0 over
 one step of azimuth; states, circulation and hub motion go to the wake; the wake advances by one step.
 """
@@ -14,38 +14,25 @@ import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
-from . import _core
 from .errors import InputError, NumericalFailure
-from .exchange import Exchange, MarchingExchange, exchange_from, exchange_of
+from .exchange import Exchange, exchange_of
 from .inflow import InflowModel, inflow_model, like
 from .integrators import INTEGRATORS
 from .maneuvers import STICKS
 from .model import Model, flight_regime
 from .progress import Progress, Silent
 from .snapshot import Snapshot
+from .stepping import Stepping
 from .trim import INCH, Trim
 from .units import quantity
 from .views import html_table
 
 RTOL = 1e-5
 """Relative tolerance of the solver that the absolute ones belong to."""
-
-
-class StickPath(Protocol):
-    """Sticks over a coupling step, linear in time between corners."""
-
-    def at(self, t: float) -> np.ndarray:
-        """Positions (4,) [m from the stop] at time `t` [s]."""
-
-    def rate(self, t: float) -> np.ndarray:
-        """Rates (4,) [m/s] at time `t` [s]."""
-
-    def pieces(self, t0: float, t1: float) -> list[tuple[float, float]]:
-        """The interval t0..t1 cut at the corners."""
 
 
 @dataclass(frozen=True)
@@ -68,27 +55,6 @@ class Ramp:
     def pieces(self, t0: float, t1: float) -> list[tuple[float, float]]:
         """One."""
         return [(t0, t1)]
-
-
-@dataclass(frozen=True)
-class Instant:
-    """Where a coupling step begins: state, its consistent rate, and the inputs that begin there."""
-
-    step: int
-    t: float
-    y: np.ndarray
-    y_dot: np.ndarray
-    inputs: _core.Inputs
-    stick: np.ndarray
-    mean_inflow: float
-    stabilator: float
-
-
-class Observer(Protocol):
-    """What hangs on a simulation and cannot change it: a recorder, a monitor, a live view."""
-
-    def __call__(self, instant: Instant) -> None:
-        """A coupling step begins."""
 
 
 @dataclass(frozen=True)
@@ -121,7 +87,7 @@ class ConvergencePhase:
     segment_evaluations: int = 0
 
 
-class Simulation:
+class Simulation(Stepping):
     """A flight from `start` that is flown step by step; owns states, wake, memory of the integrator, servo and clock.
 
     inflow: name or model as for `fly`, by default time-marching from a trim on a free wake, dynamic from a dynamic one; a
@@ -171,28 +137,11 @@ class Simulation:
             raise InputError.of("integrator", integrator, f"allowed: {', '.join(INTEGRATORS)}")
         if stabilator not in ("held", "scheduled"):
             raise InputError.of("stabilator", stabilator, "allowed: held, scheduled")
-        self.start, self.model = start, model
+        self.start = start
         self.integrator, self.rtol, self.stabilator = integrator, rtol, stabilator
-        self.delta_t = 2 * np.pi / model.omega / model.steps_per_revolution
-        self.solver = INTEGRATORS[integrator](model, rtol, atol_scale=rtol / RTOL)
-        self.seconds = {"wake": 0.0, "dynamics": 0.0}
-        self._y, self._step = start.state(0.0), 0
-        self._stick, self._incidence = self._asked(None), start.stabilator_incidence
-
-    @property
-    def t(self) -> float:
-        """Time since the start [s]: steps flown times the length of one, never a sum."""
-        return self._step * self.delta_t
-
-    @property
-    def steps(self) -> int:
-        """Coupling steps flown."""
-        return self._step
-
-    @property
-    def y(self) -> np.ndarray:
-        """A copy of the states; names and units are those of `model.core.state_names()`."""
-        return np.array(self._y)
+        solver = INTEGRATORS[integrator](model, rtol, atol_scale=rtol / RTOL)
+        self._begin(model, solver, start.state(0.0), self._asked(None))
+        self._incidence = start.stabilator_incidence
 
     @property
     def state(self) -> State:
@@ -205,12 +154,6 @@ class Simulation:
         about_trim = (self._stick - self._asked(None)) / INCH
         stick = dict(zip(STICKS, about_trim.tolist(), strict=True))
         return State(self.t, y, y[:3], y[3:6], np.array([roll, pitch, yaw]), y[10:13], stick)
-
-    @property
-    def wake(self) -> np.ndarray | None:
-        """Tip vortices (n_blades, n_ages, 3) [m], hub axes; None without a wake."""
-        tips = self.exchange.tips(self._step)
-        return None if tips is None else tips[0]
 
     @property
     def loads(self) -> dict[str, Any]:
@@ -254,47 +197,6 @@ class Simulation:
                 raise InputError.of(name, f"{value:.4g} in from the stop", f"must lie between 0 and {full:g} in")
         return INCH * inches
 
-    def follow(self, sticks: StickPath, observer: Observer | None = None) -> None:
-        """Fly one coupling step along `sticks`; `observer` sees where it begins."""
-        t, end = self.t, (self._step + 1) * self.delta_t
-        begin = self.instant(sticks)
-        if observer is not None:
-            observer(begin)
-
-        clock = time.perf_counter()
-        if not self.solver.begun:
-            self.solver.start(t, self._y, begin.y_dot)
-        inputs = begin.inputs
-        for t0, t1 in sticks.pieces(t, end):
-            if t0 > t:
-                inputs = coupling_inputs(sticks, t0, *self.exchange.held(self._step), self._incidence)
-            self.solver.advance_to(t1, inputs)
-        self._y = self.solver.state
-        self.seconds["dynamics"] += time.perf_counter() - clock
-
-        self._step += 1
-        self._stick = sticks.at(end)
-        clock = time.perf_counter()
-        self.exchange.reach(self._step, self._y, self._stick, sticks.rate(end))
-        self.seconds["wake"] += time.perf_counter() - clock
-
-    def instant(self, sticks: StickPath, ends: bool = False) -> Instant:
-        """Where the next coupling step along `sticks` begins; `ends`: no step follows, the servo rests."""
-        t = self.t
-        stick = sticks.at(t)
-        if self.stabilator == "scheduled" and self._step > 0 and not ends:
-            follow = self.model.core.followed_incidence
-            self._incidence = follow(self._incidence, self._y, float(stick[2]), self.delta_t)
-        inputs, mean = self._inputs(stick, sticks.rate(t))
-        clock = time.perf_counter()
-        y_dot = self.solver.consistent(t, self._y, inputs)
-        self.seconds["dynamics"] += time.perf_counter() - clock
-        return Instant(self._step, t, self._y, y_dot, inputs, stick, mean, self._incidence)
-
-    def _inputs(self, stick: np.ndarray, stick_rate: np.ndarray) -> tuple[_core.Inputs, float]:
-        held, mean = self.exchange.held(self._step)
-        return _core.Inputs(stick, stick_rate, self.t, held, mean, self._incidence), mean
-
     def snapshot(self) -> Snapshot:
         """Everything that what comes depends on; with `ida` the integrator begins anew at this moment."""
         scalars = {
@@ -316,7 +218,7 @@ class Simulation:
         except AttributeError as reason:
             kind = type(snapshot).__name__
             raise InputError.of("snapshot", kind, "must be what Simulation.snapshot returned") from reason
-        exchange = exchange_from(self.model, snapshot.parts["exchange"])
+        exchange = Exchange.unpacked(self.model, snapshot.parts["exchange"])
         y = np.frombuffer(snapshot.parts["y"], "<f8").copy()
         self.solver.recall(snapshot.step * self.delta_t, y, snapshot.parts["integrator"])
         self.exchange, self._y, self._step = exchange, y, snapshot.step
@@ -406,21 +308,14 @@ def flight_model(start: Trim, inflow: str | InflowModel | None) -> Model:
     return Model.build(start.aircraft, start.condition, chosen)
 
 
-def coupling_inputs(
-    sticks: StickPath, t: float, held: np.ndarray | None, mean: float, stabilator_incidence: float
-) -> _core.Inputs:
-    """Sticks from `t` on; inflow and stabilator held."""
-    return _core.Inputs(sticks.at(t), sticks.rate(t), t, held, mean, stabilator_incidence)
-
-
 def begun(model: Model, start: Trim, progress: Progress | Silent) -> tuple[Exchange, ConvergencePhase]:
     """The exchange at the start of a flight; a marching wake after its convergence phase."""
     n = model.steps_per_revolution
     exchange = exchange_of(model, start.wake, lambda: model.core.trim_motion(start.problem, start.x, n))
-    return exchange, converge(exchange, start, progress) if exchange.marches else ConvergencePhase()
+    return exchange, converge(exchange, start, progress) if model.inflow.is_marching else ConvergencePhase()
 
 
-def converge(marching: MarchingExchange, start: Trim, progress: Progress | Silent) -> ConvergencePhase:
+def converge(marching: Exchange, start: Trim, progress: Progress | Silent) -> ConvergencePhase:
     """Advance the wake at frozen states and controls; the circulation follows the inflow."""
     model = marching.model
     revolutions = model.inflow.convergence_revolutions

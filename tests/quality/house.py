@@ -146,24 +146,34 @@ class House:
     def lines_of_verbs(self):
         """Lines of stand, trim, exchange and flight in Python: what they do, not what they report."""
         left_out = ("results", "monitors", "dataset", "table", "solved")
+        return sum(lines_of(path) for path in self.verbs if path.stem not in left_out)
+
+    @cached_property
+    def lines_of_verbs_whole(self):
+        """The same with what they report: files that change their name do not change this count."""
+        return sum(map(lines_of, self.verbs))
+
+    @cached_property
+    def verbs(self):
+        """Files of stand, trim, exchange and flight in Python."""
         patterns = (
             "tunnel/*.py",
-            "trim*.py",
             "trim/*.py",
-            "wake_trim.py",
             "exchange.py",
-            "fly.py",
             "flight.py",
             "simulation.py",
+            "stepping.py",
         )
-        patterns += ("simulation/*.py",)
-        files = {path for pattern in patterns for path in self.python.glob(pattern)}
-        return sum(lines_of(path) for path in files if path.stem not in left_out)
+        return {path for pattern in patterns for path in self.python.glob(pattern)}
 
     @cached_property
     def many_arguments(self):
         """Functions of the core and its bindings that are allowed many arguments: (file, number)."""
-        found = [(path, path.read_text().count("too_many_arguments")) for path in self.sources if path.suffix == ".rs"]
+        found = [
+            (path, path.read_text().count("allow(clippy::too_many_arguments"))
+            for path in self.sources
+            if path.suffix == ".rs"
+        ]
         return [(self.name(path), n) for path, n in found if n]
 
     @cached_property

@@ -7,7 +7,6 @@ import pytest
 import wakeflight as wf
 from wakeflight.plotting.disk import harmonics
 from wakeflight.results.disk import area_weights, disk_mean, element_widths, first_harmonics
-from wakeflight.trim_results import first_harmonics as of_trim
 
 
 def grid(n=20, cutout=0.13, n_azimuths=36):
@@ -70,7 +69,7 @@ def test_trim_stand_and_figures_state_the_same_harmonics(name, n_stations):
     # the map of dynamic inflow is linear by construction: its states are the harmonics
     i = start.model.core.trim_layout(start.problem).inflow
     mean, sine, cosine = start.x[i : i + 3]
-    for found in (of_trim(start), harmonics(data.inflow)):
+    for found in (start.inflow_harmonics(), harmonics(data.inflow)):
         assert found == pytest.approx((mean, cosine, sine), abs=1e-14)
     assert float(data.inflow_mean) == pytest.approx(mean, rel=1e-13)
     stand = wf.tunnel(name, ct=0.006, speed="60 kt", inflow=inflow)

@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 
 import wakeflight as wf
+from wakeflight.trim.equations import trim_problem
+from wakeflight.tunnel.solve import StandOnWake
 
 ROTORS = Path(__file__).parent / "data" / "rotors"
 CARADONNA = ROTORS / "caradonna-tung.toml"
@@ -344,3 +346,15 @@ def test_the_circulation_of_a_wide_blade_in_hover_is_not_one_far_beyond_stall():
     passages = solved.model.core.passages(solved.problem, solved.x, psi, solved.inflow_map[::9])
     assert np.abs(passages["alpha"]).max() < np.radians(12.0)
     assert passages["speed"].max() < 1.1 * 1250 * 2 * np.pi / 60 * 1.143
+
+
+def test_a_relaxation_that_is_given_up_leaves_the_motion_that_belongs_to_its_inflow(monkeypatch):
+    # the last inflow of the wake is what the results are made of: the blades must have been solved on it
+    monkeypatch.setattr(StandOnWake, "hopeless", lambda self, wake, history: True)
+    short = wf.RelaxationWake(turns=2, azimuth_step="30 deg", near_wake_angle="30 deg", n_stations=10)
+    run = wf.tunnel("uh60a", ct=0.006, speed="60 kt", flapping="zero", inflow=short, blades="rigid")
+    solved = run.solution
+    assert not run.settled and "did not settle" in run.notes[0]
+    residual = solved.model.core.trim_residual(trim_problem(solved.model, solved.inflow_map), solved.x)
+    assert np.abs(residual).max() < 1e-6
+    assert np.array_equal(solved.inflow_map, solved.wake.inflow_map)

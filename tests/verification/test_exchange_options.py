@@ -4,13 +4,12 @@ import numpy as np
 import pytest
 
 import wakeflight as wf
-from wakeflight.exchange import MarchingExchange
+from wakeflight.exchange import Exchange
 from wakeflight.simulation import flight_model
-from wakeflight.wake_trim import marching_map
 
 
 def loop(start, **options):
-    return MarchingExchange(flight_model(start, wf.TimeMarchingWake(**options)), start.wake)
+    return Exchange.marching(flight_model(start, wf.TimeMarchingWake(**options)), start.wake)
 
 
 def test_recorrection_brings_circulation_and_inflow_together(baseline_relaxation):
@@ -35,7 +34,7 @@ def test_recorrection_brings_marching_closer_to_relaxation(baseline_relaxation):
     for passes in (0, 1):
         exchange = loop(start, scheme="pcc", recorrect=passes)
         for _ in range(5):
-            inflow, _ = marching_map(exchange, start.problem, start.x)
+            inflow, _ = exchange.turn(start.problem, start.x)
         distance.append(np.sqrt(np.mean((inflow - start.inflow_map) ** 2 @ exchange.model.area_weights)))
     assert distance[1] < 0.8 * distance[0]
 

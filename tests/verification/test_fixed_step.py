@@ -10,7 +10,7 @@ from wakeflight import _core
 from wakeflight.flight import Sticks
 from wakeflight.integrators import FixedIntegrator, absolute_tolerances, consistent_rate
 from wakeflight.model import resolution, setting
-from wakeflight.simulation import coupling_inputs
+from wakeflight.stepping import coupling_inputs
 
 
 @pytest.fixture(scope="module")

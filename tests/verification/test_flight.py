@@ -5,11 +5,12 @@ import pytest
 
 import wakeflight as wf
 from wakeflight import _core
-from wakeflight.exchange import MarchingExchange
+from wakeflight.exchange import Exchange
 from wakeflight.flight import Sticks
 from wakeflight.integrators import IdaIntegrator, consistent_rate
 from wakeflight.model import Model
-from wakeflight.simulation import coupling_inputs, flight_model
+from wakeflight.simulation import flight_model
+from wakeflight.stepping import coupling_inputs
 
 STILL = wf.Maneuver("hands off", (("lateral", ((0.0, 0.0), (1.0, 0.0))),), seconds=1.0)
 
@@ -37,7 +38,7 @@ def test_a_convergence_phase_reproduces_the_wake_standing_alone_bit_for_bit(base
     # with frozen states the exchange loop must add nothing to the stand-alone wake
     start = baseline_relaxation
     model = flight_model(start, "time-marching")
-    loop = MarchingExchange(model, start.wake)
+    loop = Exchange.marching(model, start.wake)
     alone = _core.TimeMarchingWake.from_relaxation(start.wake.relaxation, 0, model.wake_options)
     q, q_dot = model.core.trim_motion(start.problem, start.x, loop.n)
     y = start.state()

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 import wakeflight as wf
-from wakeflight.exchange import MarchingExchange
+from wakeflight.exchange import Exchange
 from wakeflight.flight import Sticks
 from wakeflight.integrators import IdaIntegrator, absolute_tolerances, consistent_rate
-from wakeflight.simulation import coupling_inputs, flight_model
-from wakeflight.wake_trim import marching_map
+from wakeflight.simulation import flight_model
+from wakeflight.stepping import coupling_inputs
 
 
 @pytest.mark.parametrize("method", ["BDF", "Radau"])
@@ -61,9 +61,9 @@ def test_marching_settles_near_the_relaxed_wake_of_the_helicopter(relaxed, schem
     # relaxation is central in age and so is pcc: what is left is the step by which circulation lags its inflow in marching,
     # 3.0 per cent of the mean inflow at 15 deg, 1.7 at 7.5. bdf2 adds the error of a backward difference in age
     model = flight_model(relaxed, wf.TimeMarchingWake(azimuth_step="15 deg", scheme=scheme))
-    loop = MarchingExchange(model, relaxed.wake)
+    loop = Exchange.marching(model, relaxed.wake)
     for _ in range(6):
-        inflow, _ = marching_map(loop, relaxed.problem, relaxed.x)
+        inflow, _ = loop.turn(relaxed.problem, relaxed.x)
     mean = model.disk_mean(relaxed.inflow_map)
     change = inflow - relaxed.inflow_map
     assert np.sqrt(np.mean(change**2 @ model.area_weights)) < rms * mean

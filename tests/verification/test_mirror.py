@@ -8,7 +8,7 @@ import pytest
 
 import wakeflight as wf
 from wakeflight.model import ROLL, YAW
-from wakeflight.trim_limits import tail_flow
+from wakeflight.trim.limits import tail_flow
 
 ODD = {"v", "p", "r", "roll", "yaw", "east", "force_y", "moment_x", "moment_z"}
 """Variables that change their sign in the mirror; blades, sticks and inflow count in the rotor's own sense."""

@@ -131,7 +131,7 @@ def test_a_flight_through_the_ground_says_so(uh60a):
 def test_the_closest_vortex_of_a_wake_is_found_as_the_marching_wake_finds_it(baseline_relaxation):
     # one instant of a marching wake, by the core and by the arrays that a periodic wake is looked at with
     start, model = baseline_relaxation, baseline_relaxation.model
-    march = start.wake.marching(dataclasses.replace(model, inflow=wf.TimeMarchingWake().resolved("forward")))
+    march = Exchange.marching(dataclasses.replace(model, inflow=wf.TimeMarchingWake().resolved("forward")), start.wake)
     march.frozen_step(start.problem, start.x)
     found = vortices.closest(
         march.position(),

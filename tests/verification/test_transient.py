@@ -11,7 +11,7 @@ from wakeflight import _core
 from wakeflight.integrators import FixedIntegrator
 from wakeflight.plotting import tunnel as drawing
 from wakeflight.results import load, save
-from wakeflight.trim_equations import resample
+from wakeflight.trim.equations import resample
 
 CARADONNA = Path(__file__).resolve().parents[2] / "validation/rotors/caradonna-tung.toml"
 WAKE = {"turns": 2, "far_wake_turns": 0, "azimuth_step": "15 deg", "n_stations": 10, "near_wake_angle": "30 deg"}

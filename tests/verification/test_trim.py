@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import wakeflight as wf
-from wakeflight.trim_results import HORSEPOWER, first_harmonics, mean_outputs
+from wakeflight.trim.table import HORSEPOWER
 
 DATA = Path(__file__).parent / "data"
 
@@ -23,7 +23,7 @@ def test_every_balance_of_the_baseline_is_met_with_every_inflow_model(name, requ
 def test_the_loads_recorded_over_a_trimmed_revolution_balance_the_weight(baseline_relaxation):
     # an independent way to the balance: loads of the recorded revolution against gravity on the airframe
     start = baseline_relaxation
-    mean = mean_outputs(start)
+    mean = start.mean_outputs()
     mass = start.condition.gross_mass - start.model.n_blades * start.model.rotor["blade_mass"]
     weight = mass * 9.80665
     expected = weight * np.array([np.sin(start.pitch), 0.0, -np.cos(start.pitch)])
@@ -37,7 +37,7 @@ def test_level_flight_at_80_kt_is_that_of_the_genhel_port(uh60a):
         published = {row["quantity"].split(" (")[0]: float(row["value"]) for row in rows}
     condition = wf.FlightCondition(speed="80 kt", flight_path="0 deg", altitude="0 ft", weight="16000 lbf")
     start = wf.trim(uh60a, condition, inflow="dynamic")
-    mean, lam = mean_outputs(start), first_harmonics(start)
+    mean, lam = start.mean_outputs(), start.inflow_harmonics()
     assert np.degrees(start.pitch) == pytest.approx(published["theta"], abs=1.0)
     assert np.degrees(start.roll) == pytest.approx(published["phi"], abs=1.0)
     travel = dict(zip(("lateral", "longitudinal", "collective", "pedal"), uh60a.stick_travel_in, strict=True))
@@ -58,7 +58,7 @@ def test_power_is_that_of_the_engine_model_report(case, speed, path):
     with (DATA / "engine_power_tm100991_table_b1.csv").open() as stream:
         rows = {row["case"]: row for row in csv.DictReader(line for line in stream if not line.startswith("#"))}
     condition = wf.FlightCondition(speed=speed, flight_path=path, altitude="0 ft", weight="16825 lbf")
-    power = mean_outputs(wf.trim(aircraft, condition, inflow="dynamic"))["power"] / HORSEPOWER
+    power = wf.trim(aircraft, condition, inflow="dynamic").mean_outputs()["power"] / HORSEPOWER
     assert power == pytest.approx(float(rows[case]["shp_total"]), rel=0.05)
 
 
@@ -74,7 +74,7 @@ def test_wake_inflow_in_level_flight_and_hover_stands_to_momentum_theory_as_know
     # a single tip vortex with circulation fed back exceeds momentum theory; the ratio is a known bias, not noise
     for speed, low, high in (("80 kt", 1.0, 1.35), ("0 kt", 1.0, 1.3)):
         start = wf.trim(uh60a, wf.FlightCondition(speed=speed, flight_path="0 deg"), inflow="relaxation")
-        mean = mean_outputs(start)
+        mean = start.mean_outputs()
         hub, _ = start.model.core.hub(start.state())
         along = -hub[2] / start.model.tip_speed
         momentum = np.sqrt(mean["ct"] / 2)

@@ -6,11 +6,11 @@ import pytest
 
 import wakeflight as wf
 from wakeflight.model import Model
-from wakeflight.trim_equations import residual_norms, trim_problem
-from wakeflight.trim_newton import Work, newton
-from wakeflight.trim_results import HORSEPOWER, mean_outputs
-from wakeflight.trim_solve import solve_condition
-from wakeflight.trim_start import first_guess
+from wakeflight.trim.equations import residual_norms, trim_problem
+from wakeflight.trim.newton import Work, newton
+from wakeflight.trim.solve import solve_condition
+from wakeflight.trim.start import first_guess
+from wakeflight.trim.table import HORSEPOWER
 
 WEIGHTS = {"uh60a": "16000 lbf", "bo105": "5000 lbf"}
 AIRCRAFT = {name: wf.load_aircraft(name) for name in WEIGHTS}
@@ -22,7 +22,7 @@ def trimmed(name="uh60a", inflow="dynamic", **given):
 
 
 def power(start):
-    return mean_outputs(start)["power"] / HORSEPOWER
+    return start.mean_outputs()["power"] / HORSEPOWER
 
 
 def state(start):
@@ -117,7 +117,7 @@ def test_a_turn_with_bank_and_rate_carries_its_load_factor(speed, bank):
     start = trimmed(speed=speed, bank=f"{bank} deg", turn_rate=f"{rate} deg/s")
     assert np.degrees(start.roll) == pytest.approx(bank, abs=1e-6)
     # thrust: of weight over cos(bank), and what fuselage and tail push down; a pitched hub takes some of it
-    mean, level = mean_outputs(start), mean_outputs(trimmed(speed=speed))
+    mean, level = start.mean_outputs(), trimmed(speed=speed).mean_outputs()
     assert mean["ct"] / level["ct"] == pytest.approx(1.0 / np.cos(np.radians(bank)), rel=0.05)
 
 

@@ -7,7 +7,7 @@ from test_balances import trimmed_revolution
 
 import wakeflight as wf
 from wakeflight import _core
-from wakeflight.trim_results import HORSEPOWER, instants, mean_outputs
+from wakeflight.trim.table import HORSEPOWER
 from wakeflight.units import STANDARD_GRAVITY
 
 AIRCRAFT = {name: wf.load_aircraft(name) for name in ("uh60a", "bo105")}
@@ -31,14 +31,14 @@ def without_blades(start):
 
 
 def averaged(start, quantity):
-    return np.mean([out[quantity] for _, out in instants(start)], axis=0)
+    return np.mean([out[quantity] for _, out in start.instants()], axis=0)
 
 
 @pytest.mark.parametrize("inflow", ["dynamic", "relaxation", "time-marching"])
 @pytest.mark.parametrize("name", AIRCRAFT)
 def test_in_autorotation_the_air_drives_main_rotor_tail_rotor_and_accessories(name, inflow):
     start = trimmed(name, inflow, {"power": "0 hp"})
-    mean = mean_outputs(start)
+    mean = start.mean_outputs()
     accessories = start.model.accessory_power
     assert mean["power_main"] == pytest.approx(-(mean["power_tail"] + accessories), abs=1.0)
     assert mean["power_main"] < 0.0
@@ -47,7 +47,7 @@ def test_in_autorotation_the_air_drives_main_rotor_tail_rotor_and_accessories(na
     given = without_blades(start) * weight * start.rate_of_descent
     assert averaged(start, "load_power") == pytest.approx(-given, rel=1e-6)
     # about the power of level flight: less of the tail rotor, more of what meets the air from below
-    level = mean_outputs(trimmed(name, "dynamic"))["power"]
+    level = trimmed(name, "dynamic").mean_outputs()["power"]
     assert weight * start.rate_of_descent == pytest.approx(level, rel=0.35)
 
 
@@ -56,7 +56,7 @@ def test_the_shaft_of_an_autorotating_rotor_takes_what_the_air_gives_the_blades(
     # torque never enters the equations of the blades: energy of motion, air, dampers and structure, counted by particles
     start = trimmed("uh60a", inflow, {"power": "0 hp"})
     energy = np.mean([balance.shaft(np.zeros(3)) for _, balance in trimmed_revolution(start)])
-    assert energy == pytest.approx(mean_outputs(start)["power_main"], rel=1e-4)
+    assert energy == pytest.approx(start.mean_outputs()["power_main"], rel=1e-4)
 
 
 def test_the_uh60a_descends_at_80_knots_without_engines_at_some_2500_feet_a_minute():
@@ -74,7 +74,7 @@ def test_the_path_that_was_found_given_back_is_the_same_trim(name, inflow):
     back = wf.trim(AIRCRAFT[name], start.condition, inflow=inflow)
     # trims on a free wake know their controls to the tolerance they rest at, 1e-3 rad, and power to a per cent of level flight's
     exact = inflow == "dynamic"
-    assert mean_outputs(back)["power"] == pytest.approx(0.0, abs=1.0 if exact else 8e3)
+    assert back.mean_outputs()["power"] == pytest.approx(0.0, abs=1.0 if exact else 8e3)
     assert list(back.stick.values()) == pytest.approx(list(start.stick.values()), abs=1e-9 if exact else 0.05)
 
 
@@ -104,11 +104,11 @@ def test_a_load_factor_of_one_is_straight_flight():
 
 
 def test_power_more_than_that_of_level_flight_is_climb():
-    level = mean_outputs(trimmed())["power"]
+    level = trimmed().mean_outputs()["power"]
     for asked in ("1500 hp", "2000 hp", "2500 hp"):
         start = trimmed(asked={"power": asked})
-        more = mean_outputs(start)["power"] - level
-        assert mean_outputs(start)["power"] / HORSEPOWER == pytest.approx(float(asked[:-3]), rel=1e-9)
+        more = start.mean_outputs()["power"] - level
+        assert start.mean_outputs()["power"] / HORSEPOWER == pytest.approx(float(asked[:-3]), rel=1e-9)
         # a rotor climbs with some 85 % of its excess power
         assert 0.75 < -start.rate_of_descent * start.condition.weight / more < 1.0
 
@@ -118,7 +118,7 @@ def test_a_power_in_level_flight_has_a_fast_and_a_slow_speed():
     assert slow.speed < trimmed(speed="70 kt").speed < fast.speed
     for start in (fast, slow):
         assert start.flight_path == 0.0
-        assert mean_outputs(wf.trim(AIRCRAFT["uh60a"], start.condition, inflow="dynamic"))["power"] == pytest.approx(
+        assert wf.trim(AIRCRAFT["uh60a"], start.condition, inflow="dynamic").mean_outputs()["power"] == pytest.approx(
             1400 * HORSEPOWER, rel=1e-6
         )
 
@@ -134,7 +134,7 @@ def test_a_collective_given_is_the_one_trimmed_with_and_lower_ones_descend():
 
 def test_an_autorotating_turn_has_both_its_power_and_its_load_factor():
     start = trimmed(load_factor=1.3, asked={"power": "0 hp"})
-    assert mean_outputs(start)["power"] == pytest.approx(0.0, abs=1.0)
+    assert start.mean_outputs()["power"] == pytest.approx(0.0, abs=1.0)
     assert start.load_factor == pytest.approx(1.3, rel=1e-12)
     assert start.rate_of_descent > trimmed(asked={"power": "0 hp"}).rate_of_descent
 

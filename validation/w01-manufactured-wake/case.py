@@ -17,11 +17,12 @@ AIRCRAFT = wf.load_aircraft("uh60a")
 """Whose wake options are taken; its rotor is replaced."""
 STILL = ([0.0, 0.0, 0.0], [0.0, 0.0, 0.0])
 
+SCHEMES = ("bdf2", "pc2b", "pcc", "path2")
 SOLVERS = {
     "relaxation": None,
     **{
         f"{scheme}, {form}s": {"scheme": scheme, "form": form}
-        for scheme in ("bdf2", "pc2b", "pcc")
+        for scheme in SCHEMES
         for form in ("displacement", "position")
     },
 }
@@ -141,7 +142,7 @@ def draw(found):
     step = 360 / np.array(STEPS)
     fields = sorted({field for field, _ in found})
     panels = figure.subplots(1, len(fields), sharey=True)
-    markers = dict(zip(SOLVERS, "osd^v+x"))
+    markers = dict(zip(SOLVERS, "osd^v+x<>"))
     for axes, field in zip(panels, fields):
         for i, name in enumerate(SOLVERS):
             color = style.COLORS[i % len(style.COLORS)]

@@ -130,6 +130,12 @@ impl AirfoilCycle {
         self.model.state_names().to_vec()
     }
 
+    /// Keys of the model's sources.
+    #[getter]
+    fn sources(&self) -> Vec<&'static str> {
+        self.model.sources().to_vec()
+    }
+
     /// States (steps, n_states).
     #[getter]
     fn states<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {

@@ -16,7 +16,7 @@ use wakeflight::rotor::exchange::{
 };
 use wakeflight::wake::TimeMarchingWake;
 
-/// Relaxation wake of a periodic motion with its circulation and inflow; see `wakeflight.wake_trim`.
+/// Relaxation wake of a periodic motion with its circulation and inflow; see `wakeflight.trim.wake`.
 #[pyclass(name = "SteadyWake", module = "wakeflight._core")]
 #[derive(Clone)]
 struct PySteadyWake {

@@ -12,7 +12,7 @@ use wakeflight::trim::path::{Path, PathUnknown};
 use wakeflight::trim::problem::{Inflow, Problem};
 use wakeflight::trim::residual::Trim;
 
-/// A steady condition to trim for; see `wakeflight.trim_equations`.
+/// A steady condition to trim for; see `wakeflight.trim.equations`.
 #[pyclass(name = "TrimProblem", frozen)]
 pub struct PyTrimProblem(pub(crate) Problem);
 

@@ -8,9 +8,9 @@ use mechanics_support::*;
 use wakeflight::airfoil::span::StationAirfoils;
 use wakeflight::blade::MAX_MODES;
 use wakeflight::blade::kinematics::ModalMotion;
-use wakeflight::blade::loads::{BladeEnvironment, BladeInflow};
 use wakeflight::blade::model::Blade;
 use wakeflight::blade::section::BladeProperties;
+use wakeflight::blade::surroundings::{BladeEnvironment, BladeInflow};
 use wakeflight::numerics::scalar::{Dual, Real};
 use wakeflight::numerics::tables::Table;
 

@@ -6,9 +6,11 @@ mod mechanics_support;
 use mechanics_support::*;
 use wakeflight::airfoil::span::StationAirfoils;
 use wakeflight::blade::MAX_MODES;
+use wakeflight::blade::hub_motion::HubMotion;
 use wakeflight::blade::kinematics::{ModalMotion, PitchMotion};
-use wakeflight::blade::loads::{BladeEnvironment, BladeInflow, HubMotion};
-use wakeflight::blade::model::{Blade, StructuralPoint};
+use wakeflight::blade::model::Blade;
+use wakeflight::blade::stations::StructuralPoint;
+use wakeflight::blade::surroundings::{BladeEnvironment, BladeInflow};
 use wakeflight::numerics::frames::Vec3;
 use wakeflight::numerics::scalar::{Dual, Real};
 

@@ -10,10 +10,11 @@ use std::f64::consts::TAU;
 use wakeflight::airfoil::span::StationAirfoils;
 use wakeflight::blade::MAX_MODES;
 use wakeflight::blade::aerodynamics::Air;
+use wakeflight::blade::hub_motion::HubMotion;
 use wakeflight::blade::kinematics::{ModalMotion, PitchMotion};
-use wakeflight::blade::loads::{BladeEnvironment, BladeInflow, HubMotion};
 use wakeflight::blade::model::{Blade, Discretisation};
 use wakeflight::blade::section::Root;
+use wakeflight::blade::surroundings::{BladeEnvironment, BladeInflow};
 use wakeflight::numerics::frames::Vec3;
 use wakeflight::numerics::scalar::{Dual, Real};
 
@@ -84,7 +85,7 @@ impl Case {
                     theta_ddot: D::cst(-OMEGA * OMEGA * cyclic),
                 };
                 let inflow = BladeInflow::Disk([D::cst(lambda), D::zero(), D::zero()]);
-                let f = self.flap_residual(&blade, &environment, &hub, psi, &modal, &control, &inflow);
+                let f = Self::flap_residual(&blade, &environment, &hub, psi, &modal, &control, &inflow);
                 rows[0] += f;
                 rows[1] += f * c;
                 rows[2] += f * s;
@@ -95,9 +96,7 @@ impl Case {
         x.into()
     }
 
-    #[allow(clippy::too_many_arguments, reason = "the arguments of the blade's loads")]
     fn flap_residual(
-        &self,
         blade: &Blade,
         environment: &BladeEnvironment,
         hub: &HubMotion<Dual<3>>,

@@ -193,8 +193,14 @@ fn verif_bdf2_marching_in_positions_is_second_order() {
 }
 
 #[test]
+fn verif_backward_on_the_path_is_second_order_with_the_smallest_error_of_that_order() {
+    check_order(&Solver::Marching(Scheme::Path2, Form::Displacement), [1.276e-4, 3.204e-5, 8.021e-6], 1.95);
+    check_order(&Solver::Marching(Scheme::Path2, Form::Position), [1.276e-4, 3.204e-5, 8.021e-6], 1.95);
+}
+
+#[test]
 fn verif_one_field_a_step_keeps_the_second_order() {
-    for scheme in [Scheme::Bdf2, Scheme::Pc2b, Scheme::Pcc] {
+    for &scheme in Scheme::ALL {
         let both = [36, 72, 144].map(|steps| {
             let at = |solver| swirl_error(&solver, steps);
             [at(Solver::Marching(scheme, Form::Displacement)), at(Solver::OneField(scheme))]
@@ -258,6 +264,7 @@ mod contraction {
             ("pc2b", Some((Scheme::Pc2b, Form::Displacement))),
             ("bdf2", Some((Scheme::Bdf2, Form::Displacement))),
             ("pc2b position", Some((Scheme::Pc2b, Form::Position))),
+            ("path2", Some((Scheme::Path2, Form::Displacement))),
         ];
         for (name, scheme) in solvers {
             let found = [36, 72, 144].map(|steps| error(scheme, steps));
@@ -354,13 +361,16 @@ mod undisturbed {
 
     #[test]
     fn verif_uniform_wind_is_exact_with_displacements() {
-        for scheme in [Scheme::Pcc, Scheme::Pc2b, Scheme::Bdf2] {
+        for &scheme in Scheme::ALL {
             for predictor in [Predictor::Same, Predictor::Central] {
                 let error = deviation(scheme, Form::Displacement, predictor);
                 assert!(error < 1e-12, "{scheme:?} {predictor:?}: {error}");
             }
         }
-        assert!(deviation(Scheme::Pcc, Form::Position, Predictor::Same) < 1e-12);
+        // and with positions, where nothing is differenced but along the path of a marker
+        for scheme in [Scheme::Pcc, Scheme::Path2] {
+            assert!(deviation(scheme, Form::Position, Predictor::Same) < 1e-12, "{scheme:?}");
+        }
     }
 
     #[test]

@@ -12,7 +12,7 @@ from typing import Annotated, Any, get_type_hints
 
 import typer
 
-from ..options import described
+from ..options import choices, described
 
 ManeuverName = Annotated[
     str, typer.Argument(metavar="MANEUVER", help="arrested-descent, roll-reversal, or a TOML file")
@@ -76,7 +76,7 @@ class Wake(Group):
     wake_turns: Annotated[
         float | None, typer.Option("--wake-turns", help=f"turns of free wake; {described('turns')}")
     ] = None
-    wake_scheme: Annotated[str | None, typer.Option("--wake-scheme", help="bdf2, pc2b, pcc")] = None
+    wake_scheme: Annotated[str | None, typer.Option("--wake-scheme", help=choices("scheme"))] = None
     wake: Annotated[
         list[str] | None,
         typer.Option(

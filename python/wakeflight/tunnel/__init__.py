@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from ..errors import InputError, NumericalFailure
 from ..inflow import DynamicInflow
 from ..progress import Progress, Silent
+from ..trim.equations import trim_problem
 from .annular import check_axial, on_annuli
 from .condition import (
     StandCondition,
@@ -21,6 +22,7 @@ from .condition import (
     higher_harmonics,
     hub_velocity,
     rotor_speed,
+    whole,
     within,
 )
 from .model import StandInflow, StandModel, stand_inflow
@@ -132,8 +134,8 @@ def tunnel(
     simple, wake = _compiled(rotor, condition, model, n_harmonics, sections)
     progress.phase("rotor on the stand", None)
     try:
-        if wake is not None and wake.is_annular:
-            found = on_annuli(wake, with_dynamic_inflow(simple), progress)
+        if wake is not None and wake.inflow.is_annular:
+            found = on_annuli(wake, with_dynamic_inflow(simple, progress), progress)
         else:
             found = solution(simple, wake, options, progress)
     except NumericalFailure as reason:
@@ -160,9 +162,7 @@ def _prepared(aircraft: Any, inflow: Any, given: dict[str, Any]) -> tuple[Rotor,
     """Rotor, condition and inflow model, everything checked; nothing is started."""
     from ..aircraft import load_rotor
 
-    n_harmonics = given["n_harmonics"]
-    if isinstance(n_harmonics, bool) or not isinstance(n_harmonics, int) or not 1 <= n_harmonics <= 40:
-        raise InputError.of("n_harmonics", n_harmonics, "must be a whole number between 1 and 40")
+    n_harmonics = whole("n_harmonics", given["n_harmonics"], 1, 40)
     rotor = load_rotor(aircraft)
     if given["blades"] not in (None, "rigid", "flexible"):
         raise InputError.of("blades", given["blades"], "allowed: rigid, flexible")
@@ -172,8 +172,7 @@ def _prepared(aircraft: Any, inflow: Any, given: dict[str, Any]) -> tuple[Rotor,
         raise InputError.of("blades", "flexible", f"the blades of {rotor.name} are rigid in its file")
     rotor = rotor.with_speed(rotor_speed(rotor, given["omega"], given["rpm"]))
     density, speed_of_sound = air(given["altitude"], given["density"], given["speed_of_sound"])
-    roll = within("roll_rate", given["roll_rate"], "rad/s", -10.0, 10.0, "rad/s")
-    pitch = within("pitch_rate", given["pitch_rate"], "rad/s", -10.0, 10.0, "rad/s")
+    roll, pitch = (within(name, given[name], "rad/s", -10.0, 10.0, "rad/s") for name in ("roll_rate", "pitch_rate"))
     velocity = hub_velocity(given["speed"], given["shaft_angle"], given["climb"])
     asked, assumed = filled(rotor, math.hypot(velocity[0], velocity[1]), density, given)
     condition = StandCondition(
@@ -209,8 +208,7 @@ def _marching_options(revolutions: Any, averaged: Any, model: StandInflow) -> di
     for name, value in (("revolutions", revolutions), ("averaged", averaged)):
         if value is None:
             continue
-        if isinstance(value, bool) or not isinstance(value, int) or not 1 <= value <= 10000:
-            raise InputError.of(name, value, "must be a whole number between 1 and 10000")
+        whole(name, value, 1, 10000)
         if model.name != "time-marching":
             raise InputError.of(name, value, f"has no meaning with {model.name} inflow")
     if revolutions is not None and averaged is not None and averaged > revolutions:
@@ -222,20 +220,16 @@ def _compiled(
     rotor: Rotor, condition: StandCondition, model: StandInflow, n_harmonics: int, blade_model: str
 ) -> tuple[StandModel, StandModel | None]:
     """The rotor with dynamic inflow, and with the free wake where that is asked for."""
-    dynamic = model
-    if not model.is_dynamic:
-        dynamic = DynamicInflow(n_stations=model.n_stations, azimuth_step=None)
+    windmill = model.is_dynamic
+    dynamic = model if windmill else DynamicInflow(n_stations=model.n_stations, azimuth_step=None)
     try:
-        windmill = dynamic is model
         simple = StandModel.build(rotor, condition, dynamic, n_harmonics, windmill=windmill)
         if rotor.flexible and not rotor.fixed_reference_pitch:
             # modes at the pitch the blade will have, where the file does not say
-            guess = first_guess(simple, simple.problem(None))[0]
+            guess = first_guess(simple, trim_problem(simple, None))[0]
             rotor = rotor.with_reference_pitch(guess)
             simple = StandModel.build(rotor, condition, dynamic, n_harmonics, windmill=windmill)
-        if dynamic is model:
-            return simple, None
-        return simple, StandModel.build(rotor, condition, model, n_harmonics, blade_model)
+        return simple, None if windmill else StandModel.build(rotor, condition, model, n_harmonics, blade_model)
     except ValueError as reason:
         if isinstance(reason, InputError):
             raise

@@ -8,10 +8,12 @@ import numpy as np
 from .. import _core
 from ..errors import InputError, NumericalFailure
 from ..progress import Progress, Silent
-from ..trim_equations import inflow_of_states, without_inflow
+from ..trim import on_wake
+from ..trim.equations import inflow_of_states, without_inflow
+from ..trim.on_wake import PeriodicWake
 from .condition import StandCondition
 from .model import StandModel
-from .solve import Solution, largest_change, solve_equations
+from .solve import Solution, StandOnWake
 
 REST = 1e-10
 """Change of inflow, pitch controls and blade harmonics between passes at which the two agree."""
@@ -27,26 +29,48 @@ def check_axial(condition: StandCondition, tip_speed: float) -> None:
         raise InputError.of("inflow", "annular", f"holds in hover and axial climb on a stand at rest, not with {what}")
 
 
+class Rings:
+    """Inflow of the rings of the disk: each carries the lift of its blade elements."""
+
+    def __init__(self, model: StandModel, inflow_map: np.ndarray):
+        self.model, self.inflow_map = model, inflow_map
+        self.circulation = np.zeros_like(inflow_map)
+        self.last = {"inflow_change": np.inf}
+
+    @property
+    def converged(self) -> bool:
+        """Whether the last pass found them at rest."""
+        return self.last["inflow_change"] < REST
+
+    def converge(self, problem: _core.TrimProblem, x: np.ndarray) -> np.ndarray:
+        """The inflow (n, n_stations) that belongs to the motion of `x`."""
+        rings = inflow_of_rings(self.model, problem, x)
+        self.last = {"inflow_change": float(np.abs(rings - self.inflow_map[0]).max())}
+        self.inflow_map = np.tile(rings, (self.model.steps_per_revolution, 1))
+        return self.inflow_map
+
+
+class OnRings(StandOnWake):
+    """Trims of a rotor on its stand in the inflow of its rings."""
+
+    def hopeless(self, wake: PeriodicWake, history: list[dict[str, float]]) -> bool:
+        """Not before the passes are at their end."""
+        return False
+
+    def ended(self, found: on_wake.Solution) -> on_wake.Solution:
+        """No answer."""
+        change = found.history[-1]["inflow_change"]
+        raise NumericalFailure(f"annular inflow: blades and rings do not agree, inflow still changes by {change:.1e}")
+
+
 def on_annuli(model: StandModel, start: Solution, progress: Progress | Silent) -> Solution:
     """Blade motion and the inflow of the rings in turn until both rest, from the solution with dynamic inflow."""
-    inflow_map = inflow_of_states(start.model, start.problem, start.x, model.steps_per_revolution)
+    n = model.steps_per_revolution
+    inflow_map = inflow_of_states(start.model, start.problem, start.x, n)
     x = without_inflow(start.model, start.problem, start.x)
-    for turn in range(MAX_PASSES):
-        problem = model.problem(inflow_map)
-        before, x = x, solve_equations(model, problem, x)
-        rings = inflow_of_rings(model, problem, x)
-        change = float(np.abs(rings - inflow_map[0]).max())
-        inflow_map = np.tile(rings, (model.steps_per_revolution, 1))
-        if turn > 0 and max(change, largest_change(model, problem, before, x)) < REST:
-            break
-        progress.advance(1, f"inflow change {change:.1e}")
-    else:
-        raise NumericalFailure(f"annular inflow: blades and rings do not agree, inflow still changes by {change:.1e}")
-    problem = model.problem(inflow_map)
-    x = solve_equations(model, problem, x)
-    psi = 2 * np.pi * np.arange(model.steps_per_revolution) / model.steps_per_revolution
-    circulation = model.core.passages(problem, x, psi, inflow_map)["circulation"]
-    return Solution(model, problem, x, inflow_map, circulation)
+    found = OnRings(model, progress, REST, MAX_PASSES).on_periodic(Rings(model, inflow_map), x, inflow_map)
+    passed = model.core.passages(found.problem, found.x, 2 * np.pi * np.arange(n) / n, found.inflow_map)
+    return Solution(model, found.problem, found.x, found.inflow_map, passed["circulation"])
 
 
 def inflow_of_rings(model: StandModel, problem: _core.TrimProblem, x: np.ndarray) -> np.ndarray:

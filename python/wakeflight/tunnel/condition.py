@@ -72,6 +72,13 @@ def within(field: str, value: Any, si_unit: str, low: float, high: float, unit: 
     return number
 
 
+def whole(field: str, value: Any, low: int, high: int) -> int:
+    """`value` if it is a whole number within low..high."""
+    if isinstance(value, bool) or not isinstance(value, int) or not low <= value <= high:
+        raise InputError.of(field, value, f"must be a whole number between {low} and {high}")
+    return value
+
+
 def hub_velocity(speed: Any, shaft_angle: Any, climb: Any) -> tuple[float, float, float]:
     """Velocity of the hub through the air, hub axes [m/s].
 

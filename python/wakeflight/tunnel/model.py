@@ -13,7 +13,6 @@ from .. import _core
 from ..aircraft import Rotor
 from ..inflow import STAND_MODELS, AnnularInflow, InflowModel, inflow_model
 from ..model import CompiledRotor, Question, resolution, setting
-from ..trim_equations import trim_problem
 from .condition import StandCondition
 
 StandInflow = InflowModel | AnnularInflow
@@ -79,10 +78,6 @@ class StandModel(CompiledRotor):
         """What the pitch controls are found from."""
         return Question(tuple((name, (value,)) for name, value in self.condition.controls))
 
-    def problem(self, inflow_map: np.ndarray | None) -> _core.TrimProblem:
-        """The equations on a held inflow map (n_azimuths, n_stations), or with dynamic inflow."""
-        return trim_problem(self, inflow_map, self.n_harmonics)
-
     @property
     def rotor_tables(self) -> dict[str, Any]:
         """Blade and airfoil as the core was given them."""
@@ -102,18 +97,3 @@ class StandModel(CompiledRotor):
     def dynamic_pressure_area(self) -> float:
         """rho pi R^2 (Omega R)^2 [N]: a force over it is its coefficient."""
         return self.condition.density * np.pi * self.rotor["radius"] ** 2 * self.tip_speed**2
-
-    @property
-    def is_dynamic(self) -> bool:
-        """Whether the inflow has states of its own: no map of it is held."""
-        return self.inflow.is_dynamic
-
-    @property
-    def is_annular(self) -> bool:
-        """Whether every ring of the disk has its own momentum."""
-        return self.inflow.is_annular
-
-    @property
-    def is_marching(self) -> bool:
-        """Whether the wake marches in time."""
-        return self.inflow.is_marching

@@ -5,31 +5,23 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..limits import stall_along_span, table_end
 from ..monitors import Monitor, Places, rotor
-from ..trim_monitors import closest_vortex
+from ..trim.monitors import closest_vortex, section_monitors
 from .solved import Solved
 
 
 def monitors(stand: Solved) -> tuple[Monitor, ...]:
     """Everything that is watched of a stand: every passage that went into its means, not the means."""
     model, solution, condition = stand.model, stand.solution, stand.model.condition
-    tables = model.rotor_tables["airfoil"]
-    psi, fields = stand.passed("alpha", "mach", "inflow")
-    alpha, mach, inflow = fields
+    names = ("alpha", "mach", "inflow")
+    psi, fields = stand.passed(*names)
     places = Places(model.stations / stand.radius, psi)
     velocity = np.asarray(condition.velocity) / model.tip_speed
     theta = [stand.theta_0, stand.theta_1c, stand.theta_1s]
-    usual, bound = model.bounds.inflow(velocity, theta)
-    section = model.bounds.section(velocity, theta)
-    fastest = model.bounds.mach(np.linalg.norm(condition.velocity), np.linalg.norm(condition.rates), section)
-    tip_mach = model.tip_speed / model.speed_of_sound
-    stalled = rotor.stall(stall_along_span(tables, model.stations), alpha, mach, model.area_weights, tip_mach, places)
+    motion = (np.linalg.norm(condition.velocity), np.linalg.norm(condition.rates))
+    *found, stalled = section_monitors(model, dict(zip(names, fields, strict=True)), velocity, theta, motion, places)
     mu, mu_z = condition.mu(model.tip_speed), condition.mu_z(model.tip_speed)
-    found = [
-        rotor.induced_velocity(inflow, usual, bound, places),
-        rotor.mach_number(mach, fastest, table_end(tables), places),
-        rotor.angle_of_attack(alpha, places),
+    found += [
         stalled,
         rotor.pitch(found_pitch(stand), float(np.arctan2(-mu_z, 0.75)), _why(stand, mu, stalled)),
         _axial(stand, mu, mu_z),
@@ -67,5 +59,5 @@ def _why(stand: Solved, mu: float, stalled: Monitor) -> str:
 
 def _axial(stand: Solved, mu: float, mu_z: float) -> Monitor:
     """Axial flow; the stand's Dataset has mu_z of its own."""
-    momentum = stand.model.is_dynamic or stand.model.is_annular
+    momentum = stand.model.inflow.is_dynamic or stand.model.inflow.is_annular
     return rotor.axial_flow(mu, mu_z, stand.ct, momentum)

@@ -8,26 +8,23 @@ revolution); circulation and near wake are solved together at every step.
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import Any
 
 import numpy as np
 
 from .. import _core
 from ..errors import NumericalFailure
-from ..exchange import MarchingExchange
+from ..exchange import Exchange
 from ..inflow import trim_model
 from ..progress import Progress, Silent
 from ..regime import REVOLUTIONS
-from ..trim_equations import inflow_of_states, unmet, without_inflow
-from ..trim_newton import Work, newton
-from ..wake_trim import WakeInTrim
+from ..trim import on_wake
+from ..trim.equations import inflow_of_states, trim_problem, unmet, without_inflow
+from ..trim.on_wake import PeriodicWake, TrimOnWake
+from ..trim.wake import WakeInTrim
 from .model import StandModel
 
-LINEARISATIONS = 60
-"""Newton steps at most."""
 CHANGE_TOLERANCE = 1e-4
 """Change of pitch controls and blade harmonics [rad] between passes on the wake: leaves 0.03 % of the power of hover."""
-MAX_OUTER = 15
 START = {"sweeps": 1, "max_loops": 4}
 """Relaxation that starts a marching full-span wake in axial flow: free sheets do not settle there, time means do."""
 
@@ -35,23 +32,16 @@ SETTLED = 2e-4
 """Change of inflow over its mean per revolution below which a marching wake counts as periodic."""
 
 
-@dataclass
-class Solution:
-    """State of a solution: unknowns on an inflow map, with the wake behind it."""
+@dataclass(frozen=True)
+class Solution(on_wake.Solution):
+    """A trim of the rotor on its stand, with the revolutions of a marching wake behind it."""
 
     model: StandModel
-    problem: _core.TrimProblem
-    x: np.ndarray
-    inflow_map: np.ndarray
-    circulation: np.ndarray
-    wake: WakeInTrim | None = None
-    march: MarchingExchange | None = None
+    march: Exchange | None = None
     revolutions: list[Revolution] = field(default_factory=list)
     averaged: int = 0
-    settled: bool = True
-    notes: list[str] = field(default_factory=list)
-    history: list[dict[str, float]] = field(default_factory=list)
     snapshots: list[_core.TimeMarchingWake] = field(default_factory=list)
+    """The wake at every step of the last revolution."""
 
 
 @dataclass(frozen=True)
@@ -108,21 +98,6 @@ def momentum_inflow(ct: float, mu: float, mu_z: float, least: bool = False) -> f
     return _core.momentum_inflow(ct, mu * mu, mu_z, least)
 
 
-def solve_equations(model: StandModel, problem: _core.TrimProblem, x0: np.ndarray) -> np.ndarray:
-    """Solve the stand's equations from `x0` by the Newton method of every trim."""
-    attempt = newton(model, problem, x0, Work(LINEARISATIONS))
-    if attempt.met:
-        return attempt.x
-    theta = ", ".join(f"{np.degrees(v):.2f}" for v in attempt.x[:3])
-    mu, mu_z = model.condition.mu(model.tip_speed), model.condition.mu_z(model.tip_speed)
-    branches = model.windmill and mu_z > 0.0 and mu_z > np.sqrt(8.0) * mu
-    why = "; momentum theory has no steady answer where the windmill brake state begins" if branches else ""
-    raise NumericalFailure(
-        f"no steady motion of the rotor found: {unmet(model, problem, attempt.x)}; "
-        f"stopped at theta_0, theta_1c, theta_1s = {theta} deg{why}"
-    )
-
-
 def hybrid(model: StandModel, problem: _core.TrimProblem, x0: np.ndarray) -> np.ndarray:
     """Where MINPACK's hybrid method comes to rest from the closed-form start `x0`, with dynamic inflow.
 
@@ -142,142 +117,136 @@ def hybrid(model: StandModel, problem: _core.TrimProblem, x0: np.ndarray) -> np.
     return found.x
 
 
-def with_dynamic_inflow(model: StandModel) -> Solution:
+class StandOnWake(TrimOnWake):
+    """Trims of a rotor on its stand; its pitch controls and blade harmonics must rest. Not resting is a status, not an error."""
+
+    where = ""
+    moving = "blades"
+
+    def __init__(
+        self, model: StandModel, progress: Progress | Silent, tolerance: float = CHANGE_TOLERANCE, passes: int = 15
+    ):
+        super().__init__(model, progress, tolerance)
+        self.passes = passes
+
+    def none_found(self, problem: _core.TrimProblem, x: np.ndarray, inflow_map: np.ndarray | None) -> str:
+        """Where the search stopped."""
+        theta = ", ".join(f"{np.degrees(v):.2f}" for v in x[:3])
+        model, condition = self.model, self.model.condition
+        mu, mu_z = condition.mu(model.tip_speed), condition.mu_z(model.tip_speed)
+        branches = model.windmill and mu_z > 0.0 and mu_z > np.sqrt(8.0) * mu
+        why = "; momentum theory has no steady answer where the windmill brake state begins" if branches else ""
+        return (
+            f"no steady motion of the rotor found: {unmet(model, problem, x)}; "
+            f"stopped at theta_0, theta_1c, theta_1s = {theta} deg{why}"
+        )
+
+    def moved(self, problem: _core.TrimProblem, before: np.ndarray, after: np.ndarray) -> np.ndarray:
+        """Changes of pitch controls and blade harmonics, as angles [rad]."""
+        modes = self.model.core.trim_layout(problem).modes
+        scale = np.ones(after.size)
+        for i, angle in enumerate(self.model.rotor["angle_per_coordinate"]):
+            scale[modes[i] : modes[i + 1]] = angle
+        return (after - before) * scale
+
+    def hopeless(self, wake: PeriodicWake, history: list[dict[str, float]]) -> bool:
+        """Whether the last pass brought nothing: the inflow changes no less than three passes before."""
+        recent = [each["inflow_change"] for each in history[-3:]]
+        return not wake.converged and len(recent) == 3 and recent[-1] > 0.5 * recent[0]
+
+    def ended(self, found: on_wake.Solution) -> on_wake.Solution:
+        """The rotor on the last inflow of the wake, with a note."""
+        problem, x = self.solve(found.inflow_map, found.x)
+        last = found.history[-1]
+        note = (
+            f"relaxation did not settle: inflow still changes by {last['inflow_change']:.1e} of the tip speed per "
+            f"iteration, the first turn by {last['first_turn_change']:.1e} R, blades and controls by "
+            f"{last['control_change']:.1e} rad"
+        )
+        return replace(found, problem=problem, x=x, notes=(note,))
+
+
+def with_dynamic_inflow(model: StandModel, progress: Progress | Silent) -> Solution:
     """The rotor with dynamic inflow: a result of its own, or the start of a free wake."""
-    problem = model.problem(None)
-    x = solve_equations(model, problem, hybrid(model, problem, first_guess(model, problem)))
+    problem = trim_problem(model, None)
+    start = hybrid(model, problem, first_guess(model, problem))
+    problem, x = StandOnWake(model, progress).solve(None, start)
     n = model.steps_per_revolution
     turn = model.core.passages(problem, x, 2 * np.pi * np.arange(n) / n, None)
     return Solution(model, problem, x, turn["inflow"], turn["circulation"])
 
 
-def on_relaxation(model: StandModel, start: Solution, progress: Progress | Silent, passes: int = MAX_OUTER) -> Solution:
-    """Blade motion and relaxation wake in turn until both rest, or `passes` times; not resting is a status, not an error."""
+def on_relaxation(model: StandModel, start: Solution, trimming: StandOnWake) -> Solution:
+    """Blade motion and relaxation wake in turn, from the solution with dynamic inflow."""
     inflow_map = inflow_of_states(start.model, start.problem, start.x, model.steps_per_revolution)
-    x = without_inflow(start.model, start.problem, start.x)
     wake = WakeInTrim(model, inflow_map)
-    history: list[dict[str, float]] = []
-    settled = False
-    thrust = None
-    for outer in range(passes):
-        problem = model.problem(inflow_map)
-        before, x = x, solve_equations(model, problem, x)
-        change = largest_change(model, problem, before, x)
-        if outer > 0 and change < CHANGE_TOLERANCE and wake.converged:
-            settled = True
-            break
-        try:
-            wake.converge(problem, x)
-        except ArithmeticError as reason:
-            raise NumericalFailure(f"relaxation wake, pass {outer + 1}: {reason}") from reason
-        inflow_map = wake.inflow_map
-        history.append({**wake.last, "change": change})
-        progress.advance(1, f"inflow change {wake.last['inflow_change']:.1e}, blades {change:.1e} rad")
-        if outer >= 2 and not wake.converged and thrust is not None and _stalled(history):
-            break
-        thrust = wake.last["thrust_change"]
-    else:
-        problem = model.problem(inflow_map)
-        x = solve_equations(model, problem, x)
-    notes = []
-    if not settled:
-        last = history[-1]
-        notes.append(
-            f"relaxation did not settle: inflow still changes by {last['inflow_change']:.1e} of the tip speed per "
-            f"iteration, the first turn by {last['first_turn_change']:.1e} R, blades and controls by {last['change']:.1e} rad"
-        )
-    circulation = wake.circulation
-    return Solution(
-        model,
-        problem,
-        x,
-        inflow_map,
-        circulation,
-        wake=wake,
-        settled=settled,
-        notes=notes,
-        history=history,
-    )
+    found = trimming.on_periodic(wake, without_inflow(start.model, start.problem, start.x), inflow_map)
+    return Solution(**vars(found))
 
 
-def _stalled(history: list[dict[str, float]]) -> bool:
-    """Whether the last pass brought nothing: the inflow changes no less than three passes before."""
-    recent = [each["inflow_change"] for each in history[-3:]]
-    return len(recent) == 3 and recent[-1] > 0.5 * recent[0]
+class Revolutions:
+    """A marching wake under the rotor on its stand, every passage of its blades kept.
 
-
-def largest_change(model: StandModel, problem: _core.TrimProblem, before: np.ndarray, after: np.ndarray) -> float:
-    """Largest change of a pitch control or a blade harmonic, as an angle [rad]."""
-    modes = model.core.trim_layout(problem).modes
-    scale = np.ones(after.size)
-    for i, angle in enumerate(model.rotor["angle_per_coordinate"]):
-        scale[modes[i] : modes[i + 1]] = angle
-    return float(np.max(np.abs(after - before) * scale))
-
-
-def on_marching(
-    model: StandModel,
-    start: Solution,
-    progress: Progress | Silent,
-    revolutions: int | None = None,
-    averaged: int | None = None,
-) -> Solution:
-    """The rotor with a marching wake: revolution after revolution, blade motion and controls renewed on its inflow.
-
-    The inflow they are renewed on is the mean of the last revolution's and of the one used before, so that the
-    unsteadiness of an axial wake is not taken for a change of condition. Ends early where the wake is periodic.
+    The inflow that blade motion and controls are renewed on is the mean of the last revolution's and of the one used before, so
+    that the unsteadiness of an axial wake is not taken for a change of condition. Ends early where the wake is periodic.
     """
-    n_rev, n_mean = REVOLUTIONS[model.condition.regime(model.tip_speed)]
-    n_rev = revolutions or max(n_rev, (averaged or 0) + 2)
-    n_mean = min(averaged or n_mean, n_rev)
-    march = MarchingExchange(model, start.wake)
-    problem, x, held = start.problem, start.x, start.inflow_map
-    run = Solution(model, problem, x, held, start.circulation, start.wake, march, notes=list(start.notes))
-    run.history = start.history
-    run.settled = False
-    progress.phase("marching wake", n_rev)
-    last_map = start.inflow_map
-    for revolution in range(n_rev):
-        try:
-            turned = march_revolution(model, march, problem, x, run.snapshots)
-        except ArithmeticError as reason:
-            raise _diverged(run, revolution, reason) from reason
-        run.revolutions.append(turned)
-        new_map = by_azimuth(turned.rows, turned.inflow, march.n)
-        held = new_map if revolution == 0 else 0.5 * (held + new_map)
-        run.problem, run.x, run.inflow_map = problem, x, new_map
-        run.circulation = by_azimuth(turned.rows, turned.passages["circulation"], march.n)
-        run.averaged = min(n_mean, len(run.revolutions))
-        # a Weissinger blade holds a second inflow behind that of the stations
-        change = (new_map - last_map)[:, : model.stations.size]
-        rms = float(np.sqrt(np.mean((change**2) @ model.area_weights)))
-        relative = rms / max(abs(model.disk_mean(new_map[:, : model.stations.size])), 1e-6)
-        last_map = new_map
-        before = x
-        problem = model.problem(held)
-        x = solve_equations(model, problem, x)
-        change = largest_change(model, problem, before, x)
-        progress.advance(1, f"inflow change {relative:.1e} of its mean, blades {change:.1e} rad")
-        run.history.append({"inflow_change_per_revolution": relative, "change": change})
-        if revolution >= 3 and relative < SETTLED and change < 1e-5:
-            run.settled, run.averaged = True, min(run.averaged, 2)
-            break
-    if not run.settled:
-        run.notes.append(
-            f"the marching wake is not periodic: inflow changes by {100 * relative:.2g} % of its mean per revolution; "
-            f"means over the last {run.averaged} of {len(run.revolutions)} revolutions"
+
+    def __init__(self, model: StandModel, start: Solution, revolutions: int | None, averaged: int | None):
+        usual, means = REVOLUTIONS[model.condition.regime(model.tip_speed)]
+        self.longest = revolutions or max(usual, (averaged or 0) + 2)
+        self.averaged = min(averaged or means, self.longest)
+        self.model, self.held = model, start.inflow_map
+        self.run = replace(
+            start, model=model, march=Exchange.marching(model, start.wake), history=list(start.history), settled=False
         )
-    return run
 
+    def turn(self, revolution: int, problem: _core.TrimProblem, x: np.ndarray) -> np.ndarray:
+        """March one revolution: the inflow to be trimmed on."""
+        model, march, before = self.model, self.run.march, self.run.inflow_map
+        turned = march_revolution(model, march, problem, x, self.run.snapshots)
+        self.run.revolutions.append(turned)
+        inflow_map = by_azimuth(turned.rows, turned.inflow, march.n)
+        self.held = inflow_map if revolution == 1 else 0.5 * (self.held + inflow_map)
+        circulation = by_azimuth(turned.rows, turned.passages["circulation"], march.n)
+        averaged = min(self.averaged, len(self.run.revolutions))
+        self.run = replace(
+            self.run, problem=problem, x=x, inflow_map=inflow_map, circulation=circulation, averaged=averaged
+        )
+        # a Weissinger blade holds a second inflow behind that of the stations
+        change, mean = ((inflow_map - before)[:, : model.stations.size], inflow_map[:, : model.stations.size])
+        rms = float(np.sqrt(np.mean((change**2) @ model.area_weights)))
+        self.relative = rms / max(abs(model.disk_mean(mean)), 1e-6)
+        return self.held
 
-def _diverged(run: Solution, revolution: int, reason: Exception) -> NumericalFailure:
-    partial = run if run.revolutions else None
-    return NumericalFailure(f"marching wake on the stand, revolution {revolution + 1}: {reason}", partial=partial)
+    @property
+    def told(self) -> str:
+        """Opens the line of progress."""
+        return f"inflow change {self.relative:.1e} of its mean, "
+
+    def diverged(self, revolution: int, reason: ArithmeticError) -> NumericalFailure:
+        """Where and why, with the revolutions before."""
+        partial = self.run if self.run.revolutions else None
+        return NumericalFailure(f"marching wake on the stand, revolution {revolution}: {reason}", partial=partial)
+
+    def trimmed(self, problem: _core.TrimProblem, x: np.ndarray, change: float) -> bool:
+        """Whether the wake is periodic and the rotor at rest."""
+        self.run.history.append({"inflow_change_per_revolution": self.relative, "control_change": change})
+        return len(self.run.revolutions) > 3 and self.relative < SETTLED and change < 1e-5
+
+    def found(self, rests: bool) -> Solution:
+        """The run; where it does not rest with a note."""
+        if rests:
+            return replace(self.run, settled=True, averaged=min(self.run.averaged, 2))
+        note = (
+            f"the marching wake is not periodic: inflow changes by {100 * self.relative:.2g} % of its mean per revolution; "
+            f"means over the last {self.run.averaged} of {len(self.run.revolutions)} revolutions"
+        )
+        return replace(self.run, notes=(*self.run.notes, note))
 
 
 def march_revolution(
     model: StandModel,
-    march: MarchingExchange,
+    march: Exchange,
     problem: _core.TrimProblem,
     x: np.ndarray,
     snapshots: list[_core.TimeMarchingWake],
@@ -318,22 +287,25 @@ def by_azimuth(rows: np.ndarray, values: np.ndarray, n: int) -> np.ndarray:
 
 
 def solution(
-    simple: StandModel, model: StandModel | None, options: dict[str, Any], progress: Progress | Silent
+    simple: StandModel, model: StandModel | None, turns: dict[str, int | None], progress: Progress | Silent
 ) -> Solution:
     """The rotor solved with `simple` (dynamic inflow), then with `model` where a free wake is asked for."""
-    start = with_dynamic_inflow(simple)
+    start = with_dynamic_inflow(simple, progress)
     progress.advance(1, "dynamic inflow")
     if model is None:
         return start
-    if not model.is_marching:
-        return on_relaxation(model, start, progress)
+    if not model.inflow.is_marching:
+        return on_relaxation(model, start, StandOnWake(model, progress))
     relaxation = trim_model(model.inflow)
     tumbling = model.condition.regime(model.tip_speed) != "forward" and model.inflow.trailers == "full-span"
     if tumbling:
         relaxation = replace(relaxation, **START)
     relaxed = StandModel.build(model.aircraft, model.condition, relaxation, model.n_harmonics, model.blade_model)
-    found = on_relaxation(relaxed, start, progress, passes=1 if tumbling else MAX_OUTER)
+    trimming = StandOnWake(relaxed, progress, passes=1) if tumbling else StandOnWake(relaxed, progress)
+    found = on_relaxation(relaxed, start, trimming)
     if tumbling:
         # no result, only a start
-        found.notes.clear()
-    return on_marching(model, found, progress, **options)
+        found = replace(found, notes=())
+    run = Revolutions(model, found, **turns)
+    progress.phase("marching wake", run.longest)
+    return StandOnWake(model, progress).on_turns(run, found)

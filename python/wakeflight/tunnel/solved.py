@@ -46,7 +46,7 @@ class Solved:
         """Passages of the periodic solution by azimuth (n, ...); empty with a marching wake."""
         s = self.solution
         # dynamic inflow acts at the deflected blade: it is part of the solution, not of the map
-        inflow = None if self.model.is_dynamic else s.inflow_map
+        inflow = None if self.model.inflow.is_dynamic else s.inflow_map
         return self.model.core.passages(s.problem, s.x, self.azimuth, inflow)
 
     def passed(self, *names: str) -> tuple[np.ndarray, list[np.ndarray]]:

@@ -7,7 +7,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..trim_results import HORSEPOWER
+from ..trim.table import HORSEPOWER
+from ..views import text_table
 from .dataset import scatter
 from .solved import Solved
 
@@ -26,10 +27,7 @@ def table(stand: Solved, assumed: Sequence[str], said: Sequence[tuple[str, str]]
             f"{c.regime(m.tip_speed)}, mu = {c.mu(m.tip_speed):.4f}, mu_z = {c.mu_z(m.tip_speed):+.4f} (descent +), "
             f"{np.linalg.norm(velocity):.2f} m/s, {m.omega * 30 / np.pi:.1f} rpm, {c.density:.4f} kg/m3",
         ),
-        (
-            "inflow, blade model",
-            f"{m.inflow.name}, {m.blade_model}",
-        ),
+        ("inflow, blade model", f"{m.inflow.name}, {m.blade_model}"),
         *(("assumed", text) for text in assumed),
         ("theta_0, 1c, 1s", f"{deg(stand.theta_0):.3f}, {deg(stand.theta_1c):.3f}, {deg(stand.theta_1s):.3f} deg"),
         ("C_T, C_T/sigma", f"{stand.ct:.6f}, {stand.ct / sigma:.4f}{scattered}"),
@@ -46,5 +44,4 @@ def table(stand: Solved, assumed: Sequence[str], said: Sequence[tuple[str, str]]
         ("residual", f"{stand.residual:.1e}"),
         *said,
     ]
-    width = max(len(name) for name, _ in rows)
-    return "\n".join(f"{name:<{width}}  {value}" for name, value in rows)
+    return text_table(rows)

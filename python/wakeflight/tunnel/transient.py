@@ -3,17 +3,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .. import _core
 from ..errors import InputError, NumericalFailure
+from ..exchange import Exchange
 from ..integrators import FixedIntegrator
 from ..monitors import Places, failures, rotor
 from ..progress import Progress, Silent
+from ..stepping import Instant, Stepping
 from ..units import quantity
 from .condition import within
 from .solved import Solved
@@ -30,19 +31,38 @@ LONGEST = 1000.0
 class History:
     """Change of collective over time, linear between its points and held after the last; it begins as the stand was.
 
-    time [s], ascending from the start of the transient; collective at the root [rad].
+    time [s], ascending from the start of the transient; collective at the root [rad]; cyclic: theta_1c, theta_1s [rad], held.
+    Over a coupling step (`step` [s], the transient begins after `first`) the collective is linear: its corners are met where
+    steps end.
     """
 
     time: np.ndarray
     collective: np.ndarray
+    cyclic: np.ndarray
+    step: float
+    first: int
 
-    def at(self, t: float) -> float:
-        """Collective [rad] at time `t` [s]."""
-        return float(np.interp(t, self.time, self.collective))
+    def collective_after(self, steps: int) -> float:
+        """Collective [rad] after `steps` steps of the clock."""
+        return float(np.interp((steps - self.first) * self.step, self.time, self.collective))
+
+    def at(self, t: float) -> np.ndarray:
+        """Collective, cyclic and nothing for a tail rotor (4,) [rad] at time `t` [s], where a step ends."""
+        return np.array([self.collective_after(round(t / self.step)), *self.cyclic, 0.0])
+
+    def rate(self, t: float) -> np.ndarray:
+        """Their rates [rad/s] over the step that begins at `t`."""
+        k = round(t / self.step)
+        return np.array([(self.collective_after(k + 1) - self.collective_after(k)) / self.step, 0.0, 0.0, 0.0])
+
+    def pieces(self, t0: float, t1: float) -> list[tuple[float, float]]:
+        """One."""
+        return [(t0, t1)]
 
 
-def history(points: Sequence[Any], start: float) -> History:
-    """From pairs (time, collective), text with units; the first point is the stand's own collective at time zero."""
+def history(points: Sequence[Any], x: np.ndarray, run: OnStand) -> History:
+    """From pairs (time, collective), text with units; the first point is the stand's own collective at time zero, of `x`."""
+    start = float(x[0])
     form = 'must be pairs (time, collective) such as [("0 s", "5 deg"), ("0.035 s", "12 deg")]'
     if isinstance(points, str) or not isinstance(points, Sequence):
         raise InputError.of("collective", points, form)
@@ -63,19 +83,15 @@ def history(points: Sequence[Any], start: float) -> History:
         if t > 0.0:
             time.append(t)
             angle.append(theta)
-    return History(np.array(time), np.array(angle))
+    return History(np.array(time), np.array(angle), x[1:3], run.delta_t, run.first)
 
 
 class Recorder:
     """What a transient leaves at every step."""
 
-    def __init__(self) -> None:
+    def __init__(self, stand: Solved, run: OnStand) -> None:
+        self.stand, self.run = stand, run
         self.rows: dict[str, list[np.ndarray]] = {}
-
-    def add(self, **values: Any) -> None:
-        """Append one value of each."""
-        for name, value in values.items():
-            self.rows.setdefault(name, []).append(np.asarray(value))
 
     @property
     def n_recorded(self) -> int:
@@ -85,6 +101,50 @@ class Recorder:
     def arrays(self) -> dict[str, np.ndarray]:
         """Everything along time first."""
         return {name: np.array(rows) for name, rows in self.rows.items()}
+
+    def record(self, at: Instant) -> None:
+        """Keep one instant; end where it is beyond what the motion of the rotor can give."""
+        stand, model = self.stand, self.stand.model
+        seen = model.core.outputs(at.t, at.y, at.y_dot, at.inputs)
+        # on the stand y points to the advancing side, whichever way the rotor turns
+        hand = model.rotor["hand"]
+        thrust, torque = seen["aero_force"][2], -seen["aero_moment"][2] * hand
+        flap, lead = model.core.equivalent_angles(np.ascontiguousarray(model.modal(at.y)[0]))
+        check(stand, seen, float(at.stick[0]))
+        scale = model.dynamic_pressure_area
+        kept = {
+            "time": (at.step - self.run.first) * self.run.delta_t,
+            "theta_0": at.stick[0],
+            "ct": thrust / scale,
+            "cq": torque / (scale * stand.radius),
+            "thrust": thrust,
+            "torque": torque,
+            "hub_force": np.array(seen["hub_force"]) * [1.0, hand, 1.0],
+            "hub_moment": np.array(seen["hub_moment"]) * [hand, 1.0, hand],
+            "flap": flap,
+            "lead": lead,
+            "beta_0": np.mean(flap),
+            "inflow_mean": model.disk_mean(seen["inflow"]),
+            **{name: seen[name] for name in ("azimuth", "inflow", "circulation", "cl", "alpha")},
+        }
+        tips = self.run.exchange.tips(at.step)
+        if tips is not None:
+            kept["wake"], kept["tip_circulation"] = tips[:2]
+        for name, value in kept.items():
+            self.rows.setdefault(name, []).append(np.asarray(value))
+
+
+class OnStand(Stepping):
+    """A solved rotor whose collective moves; the stand itself is not changed."""
+
+    def __init__(self, stand: Solved):
+        s, model = stand.solution, stand.model
+        # the clock that azimuths are read from goes on from the wake's
+        self.first = 0 if s.march is None else s.march.step_index
+        self.exchange = Exchange.dynamic(model) if s.march is None else s.march.copy()
+        step = 2 * np.pi / model.omega / model.steps_per_revolution
+        y, _ = model.core.trim_state(s.problem, s.x, self.first * step)
+        self._begin(model, FixedIntegrator(model), y, s.x[:3], self.first)
 
 
 def transient(
@@ -98,12 +158,12 @@ def transient(
     from ..results import assemble_transient
 
     solution, model = stand.solution, stand.model
-    if solution.march is None and not model.is_dynamic:
+    if solution.march is None and not model.inflow.is_dynamic:
         raise InputError.of("inflow", model.inflow.name, "a transient needs inflow time-marching or dynamic")
     if model.aircraft.discretisation.n_modes and not model.n_harmonics:
         raise InputError.of("n_harmonics", model.n_harmonics, "must be above 0")
-    moved = history(collective, float(solution.x[0]))
-    step = 2 * np.pi / model.omega / model.steps_per_revolution
+    run = OnStand(stand)
+    step, moved = run.delta_t, history(collective, solution.x, run)
     length = within("duration", duration, "s", step, LONGEST * 2 * np.pi / model.omega, "s")
     n_steps = int(np.ceil(length / step - 1e-9))
     if moved.time[-1] > n_steps * step * (1.0 + 1e-9):
@@ -111,11 +171,13 @@ def transient(
         raise InputError.of("collective time", f"{moved.time[-1]:.12g} s", allowed)
     progress = progress or Silent()
     progress.phase("transient", n_steps)
-    kept = Recorder()
+    kept = Recorder(stand, run)
     failure = ""
     try:
-        for _ in _march(stand, moved, step, n_steps, kept):
+        for _ in range(n_steps):
+            run.follow(moved, kept.record)
             progress.advance(1, "")
+        kept.record(run.instant(moved, ends=True))
     except ArithmeticError as reason:
         failure = f"transient on the stand, t = {step * kept.n_recorded:.4f} s: {reason}"
         if not kept.n_recorded:
@@ -129,64 +191,7 @@ def transient(
     return data
 
 
-def _march(stand: Solved, moved: History, step: float, n_steps: int, kept: Recorder) -> Iterator[int]:
-    """March `n_steps`, recording the start and every step."""
-    solution, model = stand.solution, stand.model
-    core, x = model.core, solution.x
-    wake = None if model.is_dynamic else solution.march.copy()
-    # the clock that azimuths are read from goes on from the wake's
-    first = 0 if wake is None else wake.step_index
-    y, _ = core.trim_state(solution.problem, x, first * step)
-    solver = FixedIntegrator(model)
-    for k in range(n_steps + 1):
-        t = (first + k) * step
-        # the collective is linear over a step: corners of the history are met where steps end
-        now, ahead, later = (moved.at((k + i) * step) for i in range(3))
-        held, mean = (None, 0.0) if wake is None else wake.held(first + k)
-        inputs = _core.Inputs([now, *x[1:3], 0.0], [(ahead - now) / step, 0.0, 0.0, 0.0], t, held, mean, 0.0)
-        y_dot = solver.consistent(t, y, inputs)
-        _record(kept, stand, core.outputs(t, y, y_dot, inputs), k * step, now, model.modal(y)[0])
-        if wake is not None:
-            kept.add(wake=wake.position(), tip_circulation=wake.marker_circulation())
-        if k == n_steps:
-            return
-        solver.advance_to((first + k + 1) * step, inputs)
-        y = solver.state
-        if wake is not None:
-            wake.reach(first + k + 1, y, np.array([ahead, *x[1:3]]), np.array([(later - ahead) / step, 0.0, 0.0]))
-        yield k
-
-
-def _record(
-    kept: Recorder, stand: Solved, seen: dict[str, Any], t: float, collective: float, coordinates: np.ndarray
-) -> None:
-    model = stand.model
-    # on the stand y points to the advancing side, whichever way the rotor turns
-    hand = model.rotor["hand"]
-    thrust, torque = seen["aero_force"][2], -seen["aero_moment"][2] * hand
-    flap, lead = model.core.equivalent_angles(np.ascontiguousarray(coordinates))
-    psi = np.asarray(seen["azimuth"])
-    _check(stand, seen["inflow"], seen["mach"], psi, collective)
-    scale = model.dynamic_pressure_area
-    kept.add(
-        time=t,
-        azimuth=psi,
-        theta_0=collective,
-        ct=thrust / scale,
-        cq=torque / (scale * stand.radius),
-        thrust=thrust,
-        torque=torque,
-        hub_force=np.array(seen["hub_force"]) * [1.0, hand, 1.0],
-        hub_moment=np.array(seen["hub_moment"]) * [hand, 1.0, hand],
-        flap=flap,
-        lead=lead,
-        beta_0=np.mean(flap),
-        inflow_mean=model.disk_mean(seen["inflow"]),
-        **{name: seen[name] for name in ("inflow", "circulation", "cl", "alpha")},
-    )
-
-
-def _check(stand: Solved, inflow: np.ndarray, mach: np.ndarray, psi: np.ndarray, collective: float) -> None:
+def check(stand: Solved, seen: dict[str, Any], collective: float) -> None:
     """End where an instant is beyond what the motion of the rotor can give."""
     model, condition = stand.model, stand.model.condition
     velocity = np.asarray(condition.velocity) / model.tip_speed
@@ -194,10 +199,10 @@ def _check(stand: Solved, inflow: np.ndarray, mach: np.ndarray, psi: np.ndarray,
     usual, bound = model.bounds.inflow(velocity, theta)
     section = model.bounds.section(velocity, theta)
     fastest = model.bounds.mach(np.linalg.norm(condition.velocity), np.linalg.norm(condition.rates), section)
-    places = Places(model.stations / stand.radius, psi)
+    places = Places(model.stations / stand.radius, np.asarray(seen["azimuth"]))
     watched = (
-        rotor.induced_velocity(inflow, usual, bound, places),
-        rotor.mach_number(mach, fastest, np.inf, places),
+        rotor.induced_velocity(seen["inflow"], usual, bound, places),
+        rotor.mach_number(seen["mach"], fastest, np.inf, places),
     )
     if failed := failures(watched):
         raise ArithmeticError("; ".join(failed))

@@ -73,26 +73,21 @@ pub fn section_air<S: Real>(
     let quarter_n = wind_n - spin_n * station.quarter;
     let three_quarter_n = wind_n - spin_n * station.three_quarter;
 
-    let SectionFlow { alpha, speed, mach, cl, cd, cm } =
-        section_flow(airfoil, air, wind_c, quarter_n, three_quarter_n);
-    section_loads(air, station, motion, wind_c, quarter_n, speed, omega, alpha, mach, [cl, cd, cm])
+    let flow = section_flow(airfoil, air, wind_c, quarter_n, three_quarter_n);
+    section_loads(air, station, motion, omega, [wind_c, quarter_n], &flow)
 }
 
-/// Loads of a section from its coefficients (cl, cd, cm) and the wind at the quarter chord along chord and normal.
-#[allow(clippy::too_many_arguments, reason = "what a section feels")]
+/// Loads of a section from its flow and the wind at the quarter chord along chord and normal.
 #[inline(always)]
-pub fn section_loads<S: Real>(
+pub(super) fn section_loads<S: Real>(
     air: &Air,
     station: &StationGeometry,
     motion: &SectionMotion<S>,
-    wind_c: S,
-    quarter_n: S,
-    speed: S,
     omega: Vec3<S, BladeAxes>,
-    alpha: S,
-    mach: S,
-    [cl, cd, cm]: [S; 3],
+    [wind_c, quarter_n]: [S; 2],
+    flow: &SectionFlow<S>,
 ) -> SectionAir<S> {
+    let &SectionFlow { alpha, speed, mach, cl, cd, cm } = flow;
     let (c, n, t) = (motion.c, motion.n, motion.t);
     let Strengths { lift, drag, about_quarter } =
         section_strengths(air, station, speed, omega.dot(t), [cl, cd, cm]);
@@ -134,9 +129,9 @@ pub(super) fn section_strengths<S: Real>(
 
 /// Angle of attack, speed and coefficients of a section.
 pub(super) struct SectionFlow<S> {
-    alpha: S,
+    pub(super) alpha: S,
     pub(super) speed: S,
-    mach: S,
+    pub(super) mach: S,
     pub(super) cl: S,
     pub(super) cd: S,
     pub(super) cm: S,

@@ -5,207 +5,16 @@
 //! hub are six more test motions of the same sums: hinge, damper and pitch-link loads act inside and do not appear.
 
 use super::MAX_MODES;
-use super::aerodynamics::{Air, SectionAir, SectionWind, section_air};
+use super::aerodynamics::{SectionAir, SectionWind, section_air};
+use super::hub_loads::{BladeLoads, Sum};
+use super::hub_motion::{Carrier, HubMotion};
 use super::kinematics::{BladeAxes, ModalMotion, PitchMotion, SectionMotion, combine};
-use super::model::{AeroStation, Blade, StructuralPoint};
+use super::model::Blade;
+use super::stations::{AeroStation, StructuralPoint};
 use super::strain::add_strain_gradient;
-use super::thin_section::ThinSection;
-use crate::airfoil::span::StationAirfoils;
-use crate::numerics::frames::{Hub, Vec3};
+use super::surroundings::{BladeEnvironment, BladeInflow};
+use crate::numerics::frames::Vec3;
 use crate::numerics::scalar::Real;
-
-/// Motion of the hub, non-rotating hub axes.
-#[derive(Clone, Copy, Debug)]
-pub struct HubMotion<S> {
-    /// Velocity of the hub centre [m/s].
-    pub velocity: Vec3<S, Hub>,
-    /// Acceleration of the hub centre less gravity [m/s2].
-    pub acceleration_less_gravity: Vec3<S, Hub>,
-    /// Angular velocity of the airframe [rad/s].
-    pub omega: Vec3<S, Hub>,
-    /// Angular acceleration of the airframe [rad/s2].
-    pub omega_dot: Vec3<S, Hub>,
-}
-
-impl HubMotion<f64> {
-    /// The same motion without derivatives.
-    #[inline(always)]
-    pub fn constant<S: Real>(&self) -> HubMotion<S> {
-        HubMotion {
-            velocity: Vec3::cst(self.velocity.array()),
-            acceleration_less_gravity: Vec3::cst(self.acceleration_less_gravity.array()),
-            omega: Vec3::cst(self.omega.array()),
-            omega_dot: Vec3::cst(self.omega_dot.array()),
-        }
-    }
-}
-
-/// Induced inflow of a blade, positive down (v_i / tip speed).
-#[derive(Clone, Copy, Debug)]
-pub enum BladeInflow<'a, S> {
-    /// lambda_0 + (lambda_c x_h + lambda_s y_h)/R at the section's place: lambda_0, lambda_s, lambda_c.
-    Disk([S; 3]),
-    /// One value per station, held.
-    Stations(&'a [f64]),
-    /// One value per station, with derivatives.
-    Variable(&'a [S]),
-    /// Thin sections: one value per station at three quarters of the chord, with derivatives.
-    ThreeQuarter {
-        /// Law of the sections.
-        law: ThinSection,
-        /// Inflow.
-        inflow: &'a [S],
-    },
-    /// Thin sections, held: inflow at the quarter chord turns the lift, that at three quarters makes it.
-    TwoLines {
-        /// Law of the sections.
-        law: ThinSection,
-        /// Inflow at the quarter chord.
-        quarter: &'a [f64],
-        /// Inflow at three quarters, less that of the section's own bound vortex in two dimensions.
-        three_quarter: &'a [f64],
-    },
-    /// No air at all.
-    Vacuum,
-}
-
-/// Sums over one blade, hub axes, about the hub centre.
-#[derive(Clone, Copy, Debug)]
-pub struct BladeLoads<S> {
-    /// Residual of the modal equations (mass-normalised modes) [N kg^-1/2].
-    pub modal: [S; MAX_MODES],
-    /// Force on the hub [N].
-    pub force: Vec3<S, Hub>,
-    /// Moment on the hub [N m].
-    pub moment: Vec3<S, Hub>,
-    /// Share of the air in the force.
-    pub aero_force: Vec3<S, Hub>,
-    /// Share of the air in the moment.
-    pub aero_moment: Vec3<S, Hub>,
-}
-
-impl<S: Real> BladeLoads<S> {
-    /// Loads without their derivatives.
-    pub fn values(&self) -> BladeLoads<f64> {
-        let plain = |v: Vec3<S, Hub>| Vec3::new(v.x.re(), v.y.re(), v.z.re());
-        BladeLoads {
-            modal: std::array::from_fn(|i| self.modal[i].re()),
-            force: plain(self.force),
-            moment: plain(self.moment),
-            aero_force: plain(self.aero_force),
-            aero_moment: plain(self.aero_moment),
-        }
-    }
-    /// No loads.
-    pub fn zero() -> Self {
-        Self {
-            modal: [S::zero(); MAX_MODES],
-            force: Vec3::zero(),
-            moment: Vec3::zero(),
-            aero_force: Vec3::zero(),
-            aero_moment: Vec3::zero(),
-        }
-    }
-}
-
-/// What surrounds a blade and turns it.
-#[derive(Clone, Copy, Debug)]
-pub struct BladeEnvironment<'a> {
-    /// Section table of every station.
-    pub airfoils: &'a StationAirfoils,
-    /// Air.
-    pub air: Air,
-    /// Rotor speed [rad/s].
-    pub rotor_speed: f64,
-}
-
-/// Rigid motion of the blade axes at one instant.
-pub(super) struct Carrier<S> {
-    pub(super) velocity: Vec3<S, BladeAxes>,
-    pub(super) acceleration: Vec3<S, BladeAxes>,
-    pub(super) omega: Vec3<S, BladeAxes>,
-    pub(super) omega_dot: Vec3<S, BladeAxes>,
-    to_blade: [[S; 3]; 3],
-    pub(super) up: Vec3<S, BladeAxes>,
-}
-
-impl<S: Real> Carrier<S> {
-    /// Blade axes at azimuth `psi`, turned up by `precone`, on a hub in motion `hub`.
-    #[inline(always)]
-    pub(super) fn new(hub: &HubMotion<S>, psi: S, precone: f64, rotor_speed: f64) -> Self {
-        let (s, c) = psi.sin_cos();
-        let (sp, cp) = precone.sin_cos();
-        let zero = S::zero();
-        let to_blade = [[c * cp, s * cp, S::cst(sp)], [-s, c, zero], [-(c * sp), -(s * sp), S::cst(cp)]];
-        let spin: Vec3<S, Hub> = Vec3::cst([0.0, 0.0, rotor_speed]);
-        Self {
-            velocity: turned(&to_blade, hub.velocity),
-            acceleration: turned(&to_blade, hub.acceleration_less_gravity),
-            omega: turned(&to_blade, hub.omega + spin),
-            omega_dot: turned(&to_blade, hub.omega_dot + hub.omega.cross(spin)),
-            up: Vec3::cst([sp, 0.0, cp]),
-            to_blade,
-        }
-    }
-    #[inline(always)]
-    pub(super) fn to_blade(&self, v: Vec3<S, Hub>) -> Vec3<S, BladeAxes> {
-        turned(&self.to_blade, v)
-    }
-    #[inline(always)]
-    pub(super) fn to_hub(&self, v: Vec3<S, BladeAxes>) -> Vec3<S, Hub> {
-        let m = &self.to_blade;
-        Vec3::new(
-            m[0][0] * v.x + m[1][0] * v.y + m[2][0] * v.z,
-            m[0][1] * v.x + m[1][1] * v.y + m[2][1] * v.z,
-            m[0][2] * v.x + m[1][2] * v.y + m[2][2] * v.z,
-        )
-    }
-}
-
-// functions instead of closures: a closure would not be compiled for the vectors that its caller runs in
-
-/// Components in blade axes, by the rows of the rotation.
-#[inline(always)]
-fn turned<S: Real>(m: &[[S; 3]; 3], v: Vec3<S, Hub>) -> Vec3<S, BladeAxes> {
-    Vec3::new(
-        m[0][0] * v.x + m[0][1] * v.y + m[0][2] * v.z,
-        m[1][0] * v.x + m[1][1] * v.y + m[1][2] * v.z,
-        m[2][0] * v.x + m[2][1] * v.y + m[2][2] * v.z,
-    )
-}
-
-/// Inertia about the principal axes t, c, n, times `v`.
-#[inline(always)]
-pub(super) fn inertia_times<S: Real>(
-    inertia: &[f64; 3],
-    m: &SectionMotion<S>,
-    v: Vec3<S, BladeAxes>,
-) -> Vec3<S, BladeAxes> {
-    m.t * (v.dot(m.t) * inertia[0]) + m.c * (v.dot(m.c) * inertia[1]) + m.n * (v.dot(m.n) * inertia[2])
-}
-
-/// Force and moment about the hub, blade axes.
-pub(super) struct Sum<S> {
-    force: Vec3<S, BladeAxes>,
-    moment: Vec3<S, BladeAxes>,
-}
-
-impl<S: Real> Sum<S> {
-    #[inline(always)]
-    pub(super) fn new() -> Self {
-        Self { force: Vec3::zero(), moment: Vec3::zero() }
-    }
-    #[inline(always)]
-    pub(super) fn add(
-        &mut self,
-        position: Vec3<S, BladeAxes>,
-        force: Vec3<S, BladeAxes>,
-        moment: Vec3<S, BladeAxes>,
-    ) {
-        self.force += force;
-        self.moment += position.cross(force) + moment;
-    }
-}
 
 impl Blade {
     /// Residual of the modal equations and hub loads at azimuth `psi` [rad].
@@ -221,7 +30,8 @@ impl Blade {
     ) -> BladeLoads<S> {
         let mut loads = self.structure_loads(environment.rotor_speed, hub, psi, modal, control);
         if !matches!(inflow, BladeInflow::Vacuum) {
-            self.add_air_loads(environment, hub, psi, modal, control, inflow, &mut loads);
+            let carrier = Carrier::new(hub, psi, self.precone, environment.rotor_speed);
+            self.add_air_loads(environment, &carrier, modal, control, inflow, &mut loads);
         }
         loads
     }
@@ -244,33 +54,35 @@ impl Blade {
         loads
     }
 
-    /// Adds what the air does.
+    /// Adds what the air does to a blade whose axes `carrier` moves.
     #[inline(always)]
-    pub fn add_air_loads<S: Real>(
+    pub(crate) fn add_air_loads<S: Real>(
         &self,
         environment: &BladeEnvironment,
-        hub: &HubMotion<S>,
-        psi: S,
+        carrier: &Carrier<S>,
         modal: &ModalMotion<S>,
         control: &PitchMotion<S>,
         inflow: &BladeInflow<S>,
         loads: &mut BladeLoads<S>,
     ) {
-        let carrier = Carrier::new(hub, psi, self.precone, environment.rotor_speed);
-        let mut aero = Sum::new();
         // numbers with derivatives go station by station: the same loads, half the code to compile
-        let done = if S::PLAIN {
-            self.add_rigid_air(environment, &carrier, modal, control, inflow, &mut loads.modal, &mut aero)
+        let straight = if S::PLAIN {
+            self.add_rigid_air(environment, carrier, modal, control, inflow, &mut loads.modal)
         } else {
-            false
+            None
         };
-        if !done {
-            for j in 0..self.stations.len() {
-                let (motion, air) = self.station_air(environment, &carrier, modal, control, inflow, j);
-                self.project(&self.stations[j].shapes, &motion, air.force, air.moment, &mut loads.modal);
-                aero.add(motion.position, air.force, air.moment);
+        let aero = match straight {
+            Some(aero) => aero,
+            None => {
+                let mut aero = Sum::new();
+                for j in 0..self.stations.len() {
+                    let (motion, air) = self.station_air(environment, carrier, modal, control, inflow, j);
+                    self.project(&self.stations[j].shapes, &motion, air.force, air.moment, &mut loads.modal);
+                    aero.add(motion.position, air.force, air.moment);
+                }
+                aero
             }
-        }
+        };
         (loads.aero_force, loads.aero_moment) = (carrier.to_hub(aero.force), carrier.to_hub(aero.moment));
         loads.force += loads.aero_force;
         loads.moment += loads.aero_moment;
@@ -342,24 +154,22 @@ impl Blade {
         }
     }
 
-    /// Air at every station; velocities need no accelerations, so `modal.q_ddot` is ignored.
+    /// Air and inflow of every station; velocities need no accelerations, so `modal.q_ddot` is ignored.
     #[inline(always)]
     pub fn air<S: Real>(
         &self,
-        environment: &BladeEnvironment,
+        environment: BladeEnvironment,
         hub: &HubMotion<S>,
         psi: S,
         modal: &ModalMotion<S>,
         control: &PitchMotion<S>,
         inflow: &BladeInflow<S>,
-        mut each: impl FnMut(usize, &SectionAir<S>, S),
-    ) {
+    ) -> impl Iterator<Item = (SectionAir<S>, S)> {
         let carrier = Carrier::new(hub, psi, self.precone, environment.rotor_speed);
-        for j in 0..self.stations.len() {
-            let (motion, air) = self.station_air(environment, &carrier, modal, control, inflow, j);
-            let lambda = self.inflow_at(inflow, &carrier, &motion, j);
-            each(j, &air, lambda);
-        }
+        (0..self.stations.len()).map(move |j| {
+            let (motion, air) = self.station_air(&environment, &carrier, modal, control, inflow, j);
+            (air, self.inflow_at(inflow, &carrier, &motion, j))
+        })
     }
 
     /// Wind of every station without inflow, into `winds`.
@@ -406,8 +216,8 @@ impl Blade {
         let force = -(acceleration.scaled(point.mass) + chord_acceleration.scaled(point.first_moment));
         // angular momentum about the elastic axis
         let moment = -(m.c.cross(acceleration).scaled(point.first_moment)
-            + inertia_times(&point.inertia, &m, omega_dot)
-            + omega.cross(inertia_times(&point.inertia, &m, omega)));
+            + point.inertia_times(&m, omega_dot)
+            + omega.cross(point.inertia_times(&m, omega)));
         (m, force, moment)
     }
 
@@ -440,7 +250,7 @@ impl Blade {
         };
         let air = match thin {
             None => section_air(airfoil, air, geometry, &m, wind, omega),
-            Some((law, behind)) => law.air(airfoil, air, geometry, &m, wind, behind, omega),
+            Some((law, behind)) => law.air(airfoil, air, geometry, &m, [wind, behind], omega),
         };
         (m, air)
     }

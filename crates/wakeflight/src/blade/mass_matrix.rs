@@ -5,9 +5,10 @@
 //! are test motions; their momenta summed over the span are the rows of the mass matrix.
 
 use super::MAX_MODES;
+use super::hub_motion::{Carrier, HubMotion};
 use super::kinematics::{BladeAxes, ModalMotion, PitchMotion, SectionMotion};
-use super::loads::{Carrier, HubMotion, inertia_times};
-use super::model::{Blade, StructuralPoint};
+use super::model::Blade;
+use super::stations::StructuralPoint;
 use crate::numerics::frames::{Hub, Vec3};
 use crate::numerics::scalar::Real;
 
@@ -35,7 +36,7 @@ fn momentum<S: Real>(
     turn: Vec3<S, BladeAxes>,
 ) -> (Vec3<S, BladeAxes>, Vec3<S, BladeAxes>) {
     let linear = shift.scaled(point.mass) + turn.cross(m.c).scaled(point.first_moment);
-    let angular = m.c.cross(shift).scaled(point.first_moment) + inertia_times(&point.inertia, m, turn);
+    let angular = m.c.cross(shift).scaled(point.first_moment) + point.inertia_times(m, turn);
     (linear, angular)
 }
 

@@ -5,6 +5,8 @@ pub mod beam;
 pub mod error;
 pub mod hermite;
 pub mod hinge;
+pub mod hub_loads;
+pub mod hub_motion;
 pub mod inertia;
 pub mod jet;
 pub mod kinematics;
@@ -14,8 +16,11 @@ pub mod model;
 pub mod modes;
 pub mod quadrature;
 pub mod rigid;
+pub mod rigid_body;
 pub mod section;
+pub mod stations;
 pub mod strain;
+pub mod surroundings;
 pub mod thin_section;
 
 /// Most modes a blade may keep.

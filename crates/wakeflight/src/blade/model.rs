@@ -7,38 +7,11 @@ use super::hinge::HingeSprings;
 use super::kinematics::StationShapes;
 use super::modes::BladeModes;
 use super::quadrature::gauss_points;
-use super::rigid::RigidBlade;
+use super::rigid_body::RigidBlade;
 use super::section::{BladeProperties, Root};
+use super::stations::{AeroStation, StructuralPoint};
 use super::strain::Stiffness;
 use serde::Deserialize;
-
-/// Mass and stiffness of a quadrature point, times its weight.
-#[derive(Clone, Debug)]
-pub struct StructuralPoint {
-    /// Shapes at the point.
-    pub shapes: StationShapes,
-    /// Built-in twist [rad].
-    pub twist: f64,
-    /// Mass [kg].
-    pub mass: f64,
-    /// First moment ahead of the elastic axis [kg m].
-    pub first_moment: f64,
-    /// Moments of inertia about the elastic axis, along tangent, chord, normal [kg m2].
-    pub inertia: [f64; 3],
-    /// Stiffnesses times weight.
-    pub stiffness: Stiffness,
-}
-
-/// Station of the air loads.
-#[derive(Clone, Debug)]
-pub struct AeroStation {
-    /// Shapes at the station.
-    pub shapes: StationShapes,
-    /// Built-in twist [rad].
-    pub twist: f64,
-    /// Chord, widths, chord points.
-    pub geometry: StationGeometry,
-}
 
 /// How finely a blade is resolved.
 #[derive(Clone, Copy, Debug, Deserialize)]

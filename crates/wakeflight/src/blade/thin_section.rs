@@ -3,7 +3,7 @@
 //! Weissinger: thin sections, circulation by flow tangency, drag and moment from the tables at the angle that gives the
 //! same lift in two dimensions. Second-order lifting line: lift, drag and moment from the tables at the angle there.
 
-use super::aerodynamics::{Air, SectionAir, StationGeometry, section_loads};
+use super::aerodynamics::{Air, SectionAir, SectionFlow, StationGeometry, section_loads};
 use super::kinematics::{BladeAxes, SectionMotion};
 use crate::airfoil::Airfoil;
 use crate::numerics::frames::Vec3;
@@ -35,21 +35,19 @@ pub struct ThinSection {
 }
 
 impl ThinSection {
-    /// Air loads of a section: `wind` at the quarter chord, `wind_three_quarter` at three quarters (both relative to the
-    /// point of the elastic axis, blade axes).
+    /// Air loads of a section in two winds, at the quarter chord and at three quarters (both relative to the point of the
+    /// elastic axis, blade axes).
     ///
     /// Tangency: Gamma = pi c V_n/sqrt(1 - M^2), V_n the speed normal to the zero-lift line at three quarters of the chord.
     /// Tables: Gamma = c V c_l/2 of the air there. c_l = 2 Gamma/(V c) of the speed V at the quarter chord, whose air gives
     /// lift and drag their directions. The sign changes where the air comes from behind.
-    #[allow(clippy::too_many_arguments, reason = "those of a section, and the second wind")]
     pub fn air<S: Real>(
         &self,
         airfoil: &Airfoil,
         air: &Air,
         station: &StationGeometry,
         motion: &SectionMotion<S>,
-        wind: Vec3<S, BladeAxes>,
-        wind_three_quarter: Vec3<S, BladeAxes>,
+        [wind, wind_three_quarter]: [Vec3<S, BladeAxes>; 2],
         omega: Vec3<S, BladeAxes>,
     ) -> SectionAir<S> {
         let (c, n) = (motion.c, motion.n);
@@ -71,18 +69,8 @@ impl ThinSection {
                 let alpha = three_quarter_n.atan2(-three_quarter_c);
                 let (cl, cd, cm) = airfoil.coefficients(alpha, mach_there);
                 let cl = cl * speed_there / speed;
-                return section_loads(
-                    air,
-                    station,
-                    motion,
-                    wind_c,
-                    quarter_n,
-                    speed,
-                    omega,
-                    alpha,
-                    mach,
-                    [cl, cd, cm],
-                );
+                let flow = SectionFlow { alpha, speed, mach, cl, cd, cm };
+                return section_loads(air, station, motion, omega, [wind_c, quarter_n], &flow);
             }
         };
         let zero_lift = airfoil.zero_lift();
@@ -100,6 +88,7 @@ impl ThinSection {
         let cl = circulation * 2.0 / (speed * station.chord);
         let alpha = cl / (factor * (2.0 * PI)) + zero_lift;
         let (_, cd, cm) = airfoil.coefficients(alpha, mach);
-        section_loads(air, station, motion, wind_c, quarter_n, speed, omega, alpha, mach, [cl, cd, cm])
+        let flow = SectionFlow { alpha, speed, mach, cl, cd, cm };
+        section_loads(air, station, motion, omega, [wind_c, quarter_n], &flow)
     }
 }

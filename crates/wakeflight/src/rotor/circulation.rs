@@ -4,8 +4,9 @@
 
 use super::hub::Rotor;
 use crate::blade::aerodynamics::{Air, SectionWind};
+use crate::blade::hub_motion::HubMotion;
 use crate::blade::kinematics::{ModalMotion, PitchMotion};
-use crate::blade::loads::{BladeInflow, HubMotion};
+use crate::blade::surroundings::BladeInflow;
 use crate::blade::thin_section::ThinSection;
 use crate::numerics::scalar::{Dual, Real};
 use crate::wake::{
@@ -63,7 +64,9 @@ impl Rotor {
         slope: &mut [f64],
     ) {
         match self.thin {
-            Some(law) => self.thin_circulation(law, air, hub, blade, lambda, circulation, slope),
+            Some(law) => self.thin_circulation(law, air, hub, blade, lambda, |j, gamma| {
+                (circulation[j], slope[j]) = (gamma.re, gamma.eps[0]);
+            }),
             None => self.circulation_of(air, &self.section_winds(hub, blade), lambda, circulation, slope),
         }
     }
@@ -89,8 +92,7 @@ impl Rotor {
         }
     }
 
-    /// The same of thin sections, `lambda` at three quarters of the chord.
-    #[allow(clippy::too_many_arguments, reason = "the physical inputs of one blade")]
+    /// The same of thin sections, `lambda` at three quarters of the chord; `each` sees every station's.
     fn thin_circulation(
         &self,
         law: ThinSection,
@@ -98,8 +100,7 @@ impl Rotor {
         hub: &HubMotion<f64>,
         blade: &BladeInstant,
         lambda: &[f64],
-        circulation: &mut [f64],
-        slope: &mut [f64],
+        mut each: impl FnMut(usize, Dual<1>),
     ) {
         type D = Dual<1>;
         // a station's circulation depends on its own inflow alone: one direction serves all
@@ -116,18 +117,11 @@ impl Rotor {
             theta_dot: D::cst(c.theta_dot),
             theta_ddot: D::cst(c.theta_ddot),
         };
-        self.blade_air(
-            air,
-            &hub.constant(),
-            blade.psi,
-            &modal,
-            &control,
-            &BladeInflow::ThreeQuarter { law, inflow: &inflow },
-            |j, section, _| {
-                circulation[j] = section.circulation.re;
-                slope[j] = section.circulation.eps[0];
-            },
-        );
+        let (hub, inflow) = (hub.constant(), BladeInflow::ThreeQuarter { law, inflow: &inflow });
+        let sections = self.blade_air(air, &hub, blade.psi, &modal, &control, &inflow);
+        for (j, (section, _)) in sections.enumerate() {
+            each(j, section.circulation);
+        }
     }
 
     /// Refuses the options of another rotor's wake; the reference chord is not the blade's to know.
@@ -221,7 +215,9 @@ impl Rotor {
                 lambda_far,
                 matrix,
                 |lambda, circulation, slope| {
-                    self.thin_circulation(law, air, hub, blade, lambda, circulation, slope);
+                    self.thin_circulation(law, air, hub, blade, lambda, |j, gamma| {
+                        (circulation[j], slope[j]) = (gamma.re, gamma.eps[0]);
+                    });
                 },
                 start,
                 &floor,

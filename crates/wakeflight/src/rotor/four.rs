@@ -3,9 +3,11 @@
 use super::hub::Rotor;
 use crate::blade::MAX_MODES;
 use crate::blade::aerodynamics::Air;
+use crate::blade::hub_loads::BladeLoads;
+use crate::blade::hub_motion::{Carrier, HubMotion};
 use crate::blade::kinematics::{ModalMotion, PitchMotion};
-use crate::blade::loads::{BladeEnvironment, BladeInflow, BladeLoads, HubMotion};
 use crate::blade::mass_matrix::BladeMass;
+use crate::blade::surroundings::{BladeEnvironment, BladeInflow};
 use crate::numerics::four::{Four, FourTask, four_at_once};
 use crate::numerics::frames::{Hub, Vec3};
 
@@ -197,7 +199,8 @@ impl Rotor {
         for ((loads, (psi, modal, control)), inflow) in loads.iter_mut().zip(blades).zip(inflow) {
             let missing = matches!(together, FourInflow::Without) && !matches!(inflow, BladeInflow::Vacuum);
             if missing {
-                self.blade.add_air_loads(&environment, hub, *psi, modal, control, inflow, loads);
+                let carrier = Carrier::new(hub, *psi, self.blade.precone, environment.rotor_speed);
+                self.blade.add_air_loads(&environment, &carrier, modal, control, inflow, loads);
             }
             self.add_damper(modal, control, &mut loads.modal);
         }

@@ -6,11 +6,13 @@ use super::sense::Sense;
 use super::swashplate::{BladePitch, PitchHarmonic, Rigging};
 use crate::airfoil::span::StationAirfoils;
 use crate::blade::MAX_MODES;
-use crate::blade::aerodynamics::Air;
+use crate::blade::aerodynamics::{Air, SectionAir};
 use crate::blade::error::BladeError;
+use crate::blade::hub_loads::BladeLoads;
+use crate::blade::hub_motion::HubMotion;
 use crate::blade::kinematics::{ModalMotion, PitchMotion, combine};
-use crate::blade::loads::{BladeEnvironment, BladeInflow, BladeLoads, HubMotion};
 use crate::blade::model::{Blade, Discretisation};
+use crate::blade::surroundings::{BladeEnvironment, BladeInflow};
 use crate::blade::thin_section::ThinSection;
 use crate::numerics::frames::{Body, Hub, Rotation, Vec3, rot_hb};
 use crate::numerics::scalar::{Dual, Real};
@@ -124,7 +126,6 @@ impl Rotor {
     }
 
     /// Loads of a blade with its damper, at azimuth `psi` for the stick position [m] and its rate [m/s].
-    #[allow(clippy::too_many_arguments, reason = "the physical inputs of one blade")]
     #[inline(always)]
     pub fn blade_loads<S: Real>(
         &self,
@@ -141,7 +142,6 @@ impl Rotor {
     }
 
     /// The same without the damper.
-    #[allow(clippy::too_many_arguments, reason = "the physical inputs of one blade")]
     #[inline(always)]
     pub fn undamped_loads<S: Real>(
         &self,
@@ -167,8 +167,7 @@ impl Rotor {
         }
     }
 
-    /// Visits the air at every station of a blade: (station, section, inflow).
-    #[allow(clippy::too_many_arguments, reason = "the physical inputs of one blade")]
+    /// Air and inflow at every station of a blade.
     #[inline(always)]
     pub fn blade_air<S: Real>(
         &self,
@@ -178,9 +177,8 @@ impl Rotor {
         modal: &ModalMotion<S>,
         control: &PitchMotion<S>,
         inflow: &BladeInflow<S>,
-        each: impl FnMut(usize, &crate::blade::aerodynamics::SectionAir<S>, S),
-    ) {
-        self.blade.air(&self.environment(air), hub, S::cst(psi), modal, control, inflow, each);
+    ) -> impl Iterator<Item = (SectionAir<S>, S)> {
+        self.blade.air(self.environment(air), hub, S::cst(psi), modal, control, inflow)
     }
 
     /// Virtual work of damper and hinge spring: they act between hub and blade and pass no load on.

@@ -2,8 +2,9 @@
 
 use super::circulation::BladeInstant;
 use super::hub::Rotor;
-use crate::blade::aerodynamics::{Air, SectionAir};
-use crate::blade::loads::{BladeInflow, HubMotion};
+use crate::blade::aerodynamics::Air;
+use crate::blade::hub_motion::HubMotion;
+use crate::blade::surroundings::BladeInflow;
 
 /// Names of what is kept of the air at every station.
 pub const FIELDS: [&str; 8] = ["cl", "cd", "cm", "alpha", "mach", "circulation", "speed", "inflow"];
@@ -33,13 +34,12 @@ impl Rotor {
                 all.extend(one.array());
             }
             let fields = &mut found.fields;
-            let visit = |_: usize, s: &SectionAir<f64>, lambda: f64| {
+            for (s, lambda) in self.blade_air(air, hub, psi, &blade.modal, &blade.control, &given) {
                 let values = [s.cl, s.cd, s.cm, s.alpha, s.mach, s.circulation, s.speed, lambda];
                 for (field, value) in fields.iter_mut().zip(values) {
                     field.push(value);
                 }
-            };
-            self.blade_air(air, hub, psi, &blade.modal, &blade.control, &given, visit);
+            }
         }
         found
     }

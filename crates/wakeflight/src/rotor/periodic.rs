@@ -3,8 +3,10 @@
 use super::hub::Rotor;
 use crate::blade::MAX_MODES;
 use crate::blade::aerodynamics::Air;
+use crate::blade::hub_loads::BladeLoads;
+use crate::blade::hub_motion::HubMotion;
 use crate::blade::kinematics::{ModalMotion, PitchMotion};
-use crate::blade::loads::{BladeInflow, BladeLoads, HubMotion};
+use crate::blade::surroundings::BladeInflow;
 use crate::numerics::scalar::Real;
 
 /// Where mean, cosines and sines of every mode live in a vector of unknowns; the equations are in the same order.

@@ -8,8 +8,10 @@ use super::hub::Rotor;
 use super::periodic::Revolution;
 use crate::blade::MAX_MODES;
 use crate::blade::aerodynamics::Air;
+use crate::blade::hub_loads::BladeLoads;
+use crate::blade::hub_motion::HubMotion;
 use crate::blade::kinematics::{ModalMotion, PitchMotion};
-use crate::blade::loads::{BladeInflow, BladeLoads, HubMotion};
+use crate::blade::surroundings::BladeInflow;
 use crate::numerics::frames::Vec3;
 use crate::numerics::wide::{DIRECTIONS, Directional, Task, differentiate};
 

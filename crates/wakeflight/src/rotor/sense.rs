@@ -4,7 +4,7 @@
 //! loads are reflected back: nothing inside knows. Polar vectors turn their y, axial vectors their x and z; every sign turned
 //! is exact, so that a mirrored flight has mirrored results to the last bit.
 
-use crate::blade::loads::HubMotion;
+use crate::blade::hub_motion::HubMotion;
 use crate::numerics::frames::Vec3;
 use crate::numerics::scalar::Real;
 use serde::{Deserialize, Serialize};

@@ -2,7 +2,7 @@
 
 use super::layout::{Layout, body_vector};
 use crate::airframe::assembly::Airframe;
-use crate::blade::loads::HubMotion;
+use crate::blade::hub_motion::HubMotion;
 use crate::numerics::frames::{Body, Inertial, Vec3, rot_ib};
 use crate::numerics::scalar::Real;
 use crate::rotor::hub::Rotor;

@@ -2,7 +2,7 @@
 //!
 //! What acts is plain numbers, or numbers with derivatives where F is differentiated by them.
 
-use crate::blade::loads::BladeInflow;
+use crate::blade::surroundings::BladeInflow;
 use crate::numerics::scalar::{Dual, Real};
 use crate::rotor::hub::Rotor;
 use serde::{Deserialize, Serialize};

@@ -107,14 +107,14 @@ impl System {
             let control = self.blade_pitch(r, at.inputs, (at.t, psi));
             let modal = self.modal_motion(r, at.y, at.y_dot, b);
             let inflow = self.blade_inflow(r, at.y, at.inputs, b);
-            rotor.blade_air(self.air, &hub, psi, &modal, &control, &inflow, |_, air, lambda| {
+            for (air, lambda) in rotor.blade_air(self.air, &hub, psi, &modal, &control, &inflow) {
                 o.inflow.push(lambda);
                 o.circulation.push(air.circulation);
                 o.cl.push(air.cl);
                 o.cl_m2.push(air.cl * air.mach * air.mach);
                 o.alpha.push(air.alpha);
                 o.mach.push(air.mach);
-            });
+            }
         }
         (o, RotorShare { loads, beta_1c })
     }

@@ -6,7 +6,7 @@ use super::layout::{Layout, body_vector};
 use super::model::System;
 use super::rotor_loads::{RotorLoads, RotorShare, blade_rows};
 use crate::airframe::assembly::{AirLoads, AirMotion, Airframe, ClosedFormState, RotorEffect};
-use crate::numerics::frames::{Body, Hub, Vec3, rot_ib};
+use crate::numerics::frames::{Body, Vec3, rot_ib};
 use crate::numerics::scalar::Real;
 
 /// All loads on the airframe except its own weight and inertia, body axes about the body origin.
@@ -136,25 +136,13 @@ impl System {
         for ((r, _, l), share) in self.each_rotor().zip(shares) {
             if l.dynamic_inflow {
                 let i = l.inflow().start;
-                let hub = self.hub_velocity(r, at.y);
+                let hub = self.hub_motion(r, at.y, at.y_dot).velocity;
                 let rate = self.inflow_rate(r, hub, &share.loads, [at.y[i], at.y[i + 1], at.y[i + 2]]);
                 for k in 0..3 {
                     f[i + k] = at.y_dot[i + k] - rate[k];
                 }
             }
         }
-    }
-
-    /// Velocity of the hub of rotor `r` as its sense of rotation has it [m/s].
-    fn hub_velocity<S: Real>(&self, r: usize, y: &[S]) -> Vec3<S, Hub> {
-        let rotor = &self.rotors[r];
-        rotor.sense.polar(match &self.carrier {
-            Carrier::Airframe(_) => {
-                let (velocity, rates) = (body_vector(y, Layout::VELOCITY), body_vector(y, Layout::RATES));
-                rotor.rot_hb::<S>() * (velocity + rates.cross(Vec3::cst(rotor.position)))
-            }
-            Carrier::Stand(stand) => Vec3::cst(stand.velocity),
-        })
     }
 
     /// Balances of the airframe, its attitude and track, the inflow of the closed-form rotors.

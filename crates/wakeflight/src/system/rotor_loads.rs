@@ -3,8 +3,10 @@
 use super::instant::{Acting, HeldInflow, Inputs, Instant};
 use super::layout::{RotorLayout, modal_array};
 use super::model::System;
+use crate::blade::hub_loads::BladeLoads;
+use crate::blade::hub_motion::HubMotion;
 use crate::blade::kinematics::{ModalMotion, PitchMotion};
-use crate::blade::loads::{BladeInflow, BladeLoads, HubMotion};
+use crate::blade::surroundings::BladeInflow;
 use crate::inflow::pitt_peters::DiskCondition;
 use crate::numerics::frames::{Body, Hub, Vec3};
 use crate::numerics::scalar::Real;

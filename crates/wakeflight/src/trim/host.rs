@@ -2,8 +2,9 @@
 
 use super::path::Path;
 use crate::blade::aerodynamics::Air;
+use crate::blade::hub_loads::BladeLoads;
+use crate::blade::hub_motion::HubMotion;
 use crate::blade::kinematics::PitchMotion;
-use crate::blade::loads::{BladeLoads, HubMotion};
 use crate::inflow::pitt_peters::PittPeters;
 use crate::numerics::frames::{Body, Vec3};
 use crate::numerics::scalar::Real;

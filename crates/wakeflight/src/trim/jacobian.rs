@@ -7,7 +7,7 @@
 use super::host::Host;
 use super::problem::Inflow;
 use super::residual::Trim;
-use crate::blade::loads::BladeLoads;
+use crate::blade::hub_loads::BladeLoads;
 use crate::numerics::frames::Vec3;
 use crate::numerics::scalar::{Dual, Real};
 use crate::rotor::periodic_slopes::{AzimuthInflow, N_GIVEN, N_LOADS, RevolutionSlopes};

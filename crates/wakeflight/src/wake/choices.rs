@@ -12,6 +12,8 @@ choices! {
         Pc2b = "pc2b",
         /// Five-point central in azimuth and age.
         Pcc = "pcc",
+        /// Second-order backward along the path of every marker.
+        Path2 = "path2",
     }
 }
 

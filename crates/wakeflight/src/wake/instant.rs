@@ -2,8 +2,10 @@
 
 use super::filament::Filaments;
 use super::geometry::{BladeGrid, BladeLine};
+use super::inboard_sheet;
 use super::motion::BladeState;
 use super::options::WakeOptions;
+use super::trailers;
 use serde::{Deserialize, Serialize};
 
 /// The rotor and its wake at one instant.
@@ -53,6 +55,25 @@ impl RotorInstant {
             self.station[i_blade * n + j] = line.at(*r);
         }
         self.circulation[i_blade * n..(i_blade + 1) * n].copy_from_slice(circulation);
+    }
+
+    /// Circulation that blade `i_blade` with the bound circulation `circulation` (n_stations) [m2/s] releases into the first
+    /// markers of its filaments.
+    pub fn release(&mut self, options: &WakeOptions, grid: &BladeGrid, i_blade: usize, circulation: &[f64]) {
+        let n_t = options.trailers_per_blade();
+        let strengths = trailers::strengths(options, grid, circulation);
+        for (t, strength) in strengths.iter().enumerate() {
+            let m = self.free.marker(i_blade * n_t + t, 0);
+            self.free.circulation[m] = *strength;
+        }
+        let n_sheet = options.sheet_filaments();
+        if n_sheet > 0 {
+            let sheet = inboard_sheet::strengths(options, grid, circulation, strengths[0]);
+            for (s, strength) in sheet.into_iter().enumerate() {
+                let m = self.sheet.marker(i_blade * n_sheet + s, 0);
+                self.sheet.circulation[m] = strength;
+            }
+        }
     }
 
     /// Becomes a copy of `other`; room is kept.

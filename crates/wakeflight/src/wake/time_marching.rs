@@ -2,21 +2,17 @@
 
 use super::choices::{Evaluation, Form, Predictor, Scheme};
 use super::error::{WakeError, finite, length};
-use super::filament::{aged_core_squared, distance, stretched_core_squared};
-use super::geometry::{BladeGrid, release_points};
-use super::inboard_sheet;
+use super::geometry::BladeGrid;
 use super::instant::RotorInstant;
 use super::motion::{BladeState, HubMotion};
 use super::options::{MarchingOptions, WakeOptions};
 use super::relaxation::{RelaxationWake, tip_rows};
-use super::stencils::{Cell, unknown_corner};
-use super::trailers;
-use super::vectors::{difference, mean, sum};
+use super::stencils::{Cell, corrector_velocity, predicted_corner, unknown_corner};
+use super::vectors::difference;
 use super::velocity_field::{FieldWork, InducedVelocity, Induction, Wanted, field_at, point_velocity};
 use std::f64::consts::TAU;
 
-/// Largest motion of a marker in one step, over R.
-const LARGEST_DISPLACEMENT: f64 = 0.5;
+mod level;
 
 /// What one step did.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -158,25 +154,26 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
         let Work { field, next, carrier, unknown, at_new } = work;
         let (options, own, velocity) = (&self.options, self.own, &self.velocity);
 
+        let step = options.delta_psi() / options.rotor.omega;
+        let old = |i: usize| [velocity[i], velocity[i + 1]];
+
         // predictor: both ends of the segment at the old level
         let predictor = match own.predictor {
             Predictor::Same => own.scheme,
             Predictor::Central => Scheme::Pcc,
         };
-        self.march(predictor, next, carrier, |i| mean(velocity[i], velocity[i + 1]), unknown);
+        let predicted = |cell: &Cell, i: usize| predicted_corner(predictor, cell, step, old(i));
+        self.march(next, carrier, predicted, unknown);
         self.place_markers(next, carrier, unknown);
         self.guard(next)?;
 
         let wanted = Wanted { markers: Some((&hub, &mut *at_new)), ..Wanted::default() };
         evaluations += field_at(&self.field, options, next, field, wanted);
-        let new = |i: usize| mean(at_new[i], at_new[i + 1]);
-        match own.scheme {
-            Scheme::Bdf2 => self.march(own.scheme, next, carrier, new, unknown),
-            Scheme::Pcc | Scheme::Pc2b => {
-                let both = |i: usize| mean(mean(velocity[i], velocity[i + 1]), new(i));
-                self.march(own.scheme, next, carrier, both, unknown);
-            }
-        }
+        let corrected = |cell: &Cell, i: usize| {
+            let velocity = corrector_velocity(own.scheme, cell, old(i), [at_new[i], at_new[i + 1]]);
+            unknown_corner(own.scheme, cell, velocity.map(|v| v * step))
+        };
+        self.march(next, carrier, corrected, unknown);
         self.place_markers(next, carrier, unknown);
         let max_displacement = self.guard(next)?;
         let odd_even = self.odd_even(unknown);
@@ -301,7 +298,7 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
         self.velocity_is_known &= self.own.evaluation == Evaluation::Pec;
         self.instant.circulation.copy_from_slice(circulation);
         for (blade, gamma) in circulation.chunks_exact(self.options.n_stations).enumerate() {
-            release_circulation(&self.options, &self.grid, &mut self.instant, blade, gamma);
+            self.instant.release(&self.options, &self.grid, blade, gamma);
         }
         Ok(())
     }
@@ -352,148 +349,5 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
             }
         }
         Ok(())
-    }
-
-    /// Registers of the new level: everything that travels with the markers moves on by one, the blades release anew.
-    /// Markers are still those of the old level.
-    fn shift(&self, work: &mut Work, hub: &HubMotion, blades: &[BladeState], circulation: &[f64]) {
-        let Work { next, carrier, .. } = work;
-        let options = &self.options;
-        let (n_k, n_t) = (options.n_segments(), options.trailers_per_blade());
-        let (n_r, n_sheet) = (options.n_stations, options.sheet_filaments());
-        next.copy(&self.instant);
-        carrier.clone_from(&self.carrier);
-        let old_carry = inboard_sheet::convection(options, &self.hub, self.mean_inflow);
-        let new_carry = inboard_sheet::convection(options, hub, self.mean_inflow);
-        let drift = mean(old_carry, new_carry).map(|v| v * options.delta_psi() / options.rotor.omega);
-        for (blade, state) in blades.iter().enumerate() {
-            let gamma = &circulation[blade * n_r..(blade + 1) * n_r];
-            next.place_blade(options, &self.grid, blade, state, gamma);
-            for (t, release) in release_points(options, &self.grid, state).into_iter().enumerate() {
-                let m = next.free.marker(blade * n_t + t, 0);
-                next.free.circulation.copy_within(m..m + n_k, m + 1);
-                carrier.copy_within(m..m + n_k, m + 1);
-                carrier[m] = match options.form {
-                    Form::Displacement => release,
-                    Form::Position => [0.0; 3],
-                };
-                next.free.position[m] = release;
-            }
-            if n_sheet > 0 {
-                for (s, point) in inboard_sheet::release_points(options, state).into_iter().enumerate() {
-                    let m = next.sheet.marker(blade * n_sheet + s, 0);
-                    next.sheet.circulation.copy_within(m..m + n_k, m + 1);
-                    for k in (1..=n_k).rev() {
-                        next.sheet.position[m + k] = sum(self.instant.sheet.position[m + k - 1], drift);
-                    }
-                    next.sheet.position[m] = point;
-                }
-            }
-            release_circulation(options, &self.grid, next, blade, gamma);
-        }
-    }
-
-    /// Unknown at the new level by `scheme` into `new`; `velocity(i)` is the mean V of the cell whose marker k is `i` [m/s].
-    fn march(
-        &self,
-        scheme: Scheme,
-        next: &RotorInstant,
-        carrier: &[[f64; 3]],
-        velocity: impl Fn(usize) -> [f64; 3],
-        new: &mut Vec<[f64; 3]>,
-    ) {
-        let [now, past, older] = &self.levels;
-        let scale = self.options.delta_psi() / self.options.rotor.omega;
-        new.resize(now.len(), [0.0; 3]);
-        for filament in 0..next.free.n_filaments {
-            let m = next.free.marker(filament, 0);
-            new[m] = difference(next.free.position[m], carrier[m]);
-            for i in m..m + self.options.n_segments() {
-                let advance = velocity(i).map(|v| v * scale);
-                let cell = Cell {
-                    b: now[i + 1],
-                    c: new[i],
-                    d: now[i],
-                    e: past[i + 1],
-                    f: past[i],
-                    g: older[i + 1],
-                    h: older[i],
-                };
-                new[i + 1] = unknown_corner(scheme, &cell, advance);
-            }
-        }
-    }
-
-    /// Positions and cores of the new level from its unknown.
-    fn place_markers(&self, next: &mut RotorInstant, carrier: &[[f64; 3]], unknown: &[[f64; 3]]) {
-        let n_k = self.options.n_segments();
-        for (i, position) in next.free.position.iter_mut().enumerate() {
-            if i % (n_k + 1) != 0 {
-                *position = sum(carrier[i], unknown[i]);
-            }
-        }
-        if !self.options.core_stretching {
-            return;
-        }
-        let old = &self.instant.free;
-        for filament in 0..old.n_filaments {
-            next.free.core_squared[filament * n_k] = aged_core_squared(&self.options, 0);
-            for k in 1..n_k {
-                next.free.core_squared[filament * n_k + k] = stretched_core_squared(
-                    &self.options,
-                    old.core_squared[filament * n_k + k - 1],
-                    old.segment_length(filament, k - 1),
-                    next.free.segment_length(filament, k),
-                );
-            }
-        }
-    }
-
-    /// Largest motion of a marker over R; an error beyond the limit or if a position is not finite.
-    fn guard(&self, next: &RotorInstant) -> Result<f64, WakeError> {
-        let mut largest: f64 = 0.0;
-        for filament in 0..next.free.n_filaments {
-            let m = next.free.marker(filament, 0);
-            for k in 1..=self.options.n_segments() {
-                let displacement = distance(next.free.position[m + k], self.instant.free.position[m + k - 1])
-                    / self.options.rotor.radius;
-                if displacement.is_nan() || displacement > LARGEST_DISPLACEMENT {
-                    return Err(WakeError::Diverged {
-                        filament,
-                        marker: k,
-                        displacement,
-                        limit: LARGEST_DISPLACEMENT,
-                        step: self.steps + 1,
-                    });
-                }
-                largest = largest.max(displacement);
-            }
-        }
-        Ok(largest)
-    }
-}
-
-/// Circulation that a blade releases into the first markers of its filaments.
-fn release_circulation(
-    options: &WakeOptions,
-    grid: &BladeGrid,
-    instant: &mut RotorInstant,
-    blade: usize,
-    gamma: &[f64],
-) {
-    let n_t = options.trailers_per_blade();
-    let strengths = trailers::strengths(options, grid, gamma);
-    for (t, strength) in strengths.iter().enumerate() {
-        let m = instant.free.marker(blade * n_t + t, 0);
-        instant.free.circulation[m] = *strength;
-    }
-    let n_sheet = options.sheet_filaments();
-    if n_sheet > 0 {
-        for (s, strength) in
-            inboard_sheet::strengths(options, grid, gamma, strengths[0]).into_iter().enumerate()
-        {
-            let m = instant.sheet.marker(blade * n_sheet + s, 0);
-            instant.sheet.circulation[m] = strength;
-        }
     }
 }

@@ -15,7 +15,7 @@ from ...model import Model, flight_regime
 from ...modes import blade_modes
 from ...progress import Progress, Silent
 from ...trim import Trim
-from ...trim_results import HORSEPOWER, first_harmonics
+from ...trim.table import HORSEPOWER
 from ...tunnel import check as check_stand
 from ..case import Case, Done, Trims, attempt, run
 from .parameters import Parameter, tightened
@@ -257,7 +257,7 @@ def trim_values(start: Trim) -> list[float]:
     mean = start.mean_outputs()
     values: dict[str, float] = {
         **start.stick,
-        **dict(zip(("lambda_0", "lambda_1c", "lambda_1s"), first_harmonics(start), strict=True)),
+        **dict(zip(("lambda_0", "lambda_1c", "lambda_1s"), start.inflow_harmonics(), strict=True)),
         **{name: float(mean[name]) for name in ("power", "ct", "beta_0", "beta_1c", "beta_1s")},
         "pitch": start.pitch,
         "roll": start.roll,

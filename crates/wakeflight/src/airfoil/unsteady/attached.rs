@@ -12,6 +12,7 @@ use crate::numerics::scalar::Real;
 pub struct Attached;
 
 impl Law for Attached {
+    const SOURCES: &'static [&'static str] = &["leishman1989", "lomax1952"];
     const NAMES: &'static [&'static str] = &[
         "shed_slow",
         "shed_fast",

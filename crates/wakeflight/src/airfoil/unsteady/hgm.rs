@@ -19,11 +19,13 @@ const ROOT_FLOOR: f64 = 1e-9;
 /// Four states [hansen2004]: shed wake (2), angle of the lagged pressure, separation point.
 ///
 /// DEVIATION: the third state is the angle alpha_F rather than the lift C_l,alpha (alpha_F - alpha_0); the same where the Mach
-/// number stays. Drag turns with the angle that the shed wake takes off, not with that of the pitch rate.
+/// number stays. Drag turns with the angle that the shed wake takes off, not with that of the pitch rate. The table's moment gives
+/// way by the table's lift at its arm, not by the lift of the instant: the moment is then that of the lift at its arm.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Hgm;
 
 impl Law for Hgm {
+    const SOURCES: &'static [&'static str] = &["hansen2004", "jones1940"];
     const NAMES: &'static [&'static str] = &["shed_slow", "shed_fast", "pressure_angle", "separation"];
     const STAGE: &'static [usize] = &[0, 0, 1, 2];
 
@@ -64,15 +66,15 @@ impl Law for Hgm {
         let (_, cd_0, _) = section.airfoil.coefficients(section.separation.zero_lift(mach), mach);
         let root = |f: S| (f.clamped(0.0, 1.0) + ROOT_FLOOR).sqrt();
         let pressure_drag = (root(table.point) - root(point)) * 0.5 - (table.point - point) * 0.25;
-        let arm = section.separation.arm(alpha_effective, point, mach)
-            - section.separation.arm(alpha_effective, table.point, mach);
+        let arm = |point: S| section.separation.arm(alpha_effective, point, mach);
+        let moved = circulatory * arm(point) - cl * arm(table.point);
         // half of it is the damping of the table's quasi-steady flow, half that of the air set in motion
         let damping = flow.reduced_rate(section.chord) * (share + 1.0) * DAMPING;
         Coefficients {
             cl: circulatory + added_mass_lift(section, flow),
             circulatory,
             cd: cd + circulatory * (flow.alpha - alpha_effective) + (cd - cd_0) * pressure_drag * share,
-            cm: cm + circulatory * arm * share + damping,
+            cm: cm + moved * share + damping,
             alpha_effective,
             separation: point,
         }

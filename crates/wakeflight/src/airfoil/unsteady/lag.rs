@@ -27,6 +27,8 @@ impl<S: Real> Drive<S> {
 
 /// A model of a section in time.
 pub trait Law {
+    /// Keys of its sources.
+    const SOURCES: &'static [&'static str];
     /// Name of each state.
     const NAMES: &'static [&'static str];
     /// Stage of each state, ascending from 0: its drive depends on states of earlier stages alone.

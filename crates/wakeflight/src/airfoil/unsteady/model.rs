@@ -48,6 +48,10 @@ fn names_of<L: Law>(_: &L) -> &'static [&'static str] {
     L::NAMES
 }
 
+fn sources_of<L: Law>(_: &L) -> &'static [&'static str] {
+    L::SOURCES
+}
+
 impl Model {
     /// Every model, by the name that users type.
     pub const ALL: [(&'static str, Self); 4] = [
@@ -60,6 +64,11 @@ impl Model {
     /// Name of each state.
     pub fn state_names(self) -> &'static [&'static str] {
         of_law!(self, law => names_of(law), &[])
+    }
+
+    /// Keys of its sources.
+    pub fn sources(self) -> &'static [&'static str] {
+        of_law!(self, law => sources_of(law), &[])
     }
 
     /// Rates of the states.

@@ -12,6 +12,7 @@ const SEPARATION_TIME: f64 = 6.0;
 pub struct Oye;
 
 impl Law for Oye {
+    const SOURCES: &'static [&'static str] = &["oye1991", "branlard2017"];
     const NAMES: &'static [&'static str] = &["separation"];
     const STAGE: &'static [usize] = &[0];
 

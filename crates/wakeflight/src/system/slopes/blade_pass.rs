@@ -2,8 +2,9 @@
 
 use super::{BladeSlopes, N_LOADS};
 use crate::blade::MAX_MODES;
+use crate::blade::hub_loads::BladeLoads;
 use crate::blade::kinematics::ModalMotion;
-use crate::blade::loads::{BladeInflow, BladeLoads};
+use crate::blade::surroundings::BladeInflow;
 use crate::numerics::frames::Vec3;
 use crate::numerics::wide::{DIRECTIONS, Directional, Task, differentiate};
 use crate::rotor::hub::DamperSlopes;

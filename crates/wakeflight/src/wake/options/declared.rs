@@ -151,7 +151,7 @@ declare! {
 declare! {
     /// Options of the wake marched in time [bhagwat2001].
     pub struct MarchingOptions in "marching" of TIME_MARCHING {
-        /// Corrector: second-order backward at the new level, PC2B at the cell's centre, or five-point central.
+        /// Corrector: backward at the new level, PC2B at the cell's centre, five-point central, or along the paths of markers.
         scheme: Scheme = always(Scheme::Bdf2), source(&["bhagwat2001"]);
 
         /// Predictor: stencil of the corrector, or five-point central.

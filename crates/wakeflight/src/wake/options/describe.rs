@@ -317,6 +317,11 @@ macro_rules! choices {
             $(#[doc = $meaning] #[serde(rename = $word)] $member),+
         }
 
+        impl $name {
+            /// All that can be chosen.
+            pub const ALL: &'static [Self] = &[$(Self::$member),+];
+        }
+
         impl $crate::wake::options::describe::Value for $name {
             const KIND: $crate::wake::options::describe::Kind = $crate::wake::options::describe::Kind::Word;
             const WORDS: &'static [$crate::wake::options::describe::Word] =

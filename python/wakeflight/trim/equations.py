@@ -10,8 +10,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from . import _core
-from .model import CompiledRotor
+from .. import _core
+from ..model import CompiledRotor
 
 INCH = 0.0254
 TOLERANCES = {"m/s2": 1e-4, "rad/s2": 1e-4, "rad": 1e-6, "1": 1e-6}
@@ -21,17 +21,17 @@ SCALES = {"m": 0.1 * INCH, "rad": np.radians(1.0), "rad/s": np.radians(1.0), "m/
 """A small change of an unknown, by its unit: 0.1 in of stick, 1 deg, 1 deg/s, 1 m/s, 1e-3 of inflow."""
 
 
-def trim_problem(model: CompiledRotor, inflow_map: np.ndarray | None, n_harmonics: int = 8) -> _core.TrimProblem:
+def trim_problem(model: CompiledRotor, inflow_map: np.ndarray | None) -> _core.TrimProblem:
     """The equations of what is asked of the model, on a held inflow map (n_azimuths, n_stations) or with dynamic inflow."""
     n_azimuths = model.steps_per_revolution if inflow_map is None else inflow_map.shape[0]
     # the inflow of thin sections is twice as wide, that of the stations first
     mean = 0.0 if inflow_map is None else model.disk_mean(inflow_map[:, : model.stations.size])
     # at least four azimuths per highest harmonic
-    fine = n_azimuths * int(np.ceil(4 * max(n_harmonics, 1) / n_azimuths))
+    fine = n_azimuths * int(np.ceil(4 * max(model.n_harmonics, 1) / n_azimuths))
     if inflow_map is not None and fine > n_azimuths:
         inflow_map = resample(inflow_map, fine)
     asked = model.question
-    return _core.TrimProblem(asked.path, asked.free, asked.equations, n_harmonics, fine, inflow_map, mean)
+    return _core.TrimProblem(asked.path, asked.free, asked.equations, model.n_harmonics, fine, inflow_map, mean)
 
 
 def resample(inflow_map: np.ndarray, n: int) -> np.ndarray:

@@ -14,22 +14,17 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from . import _core
-from .condition import FlightCondition, smooth_step
-from .errors import NumericalFailure
-from .model import PITCH, ROLL, YAW, Model
-from .trim_equations import INCH, scales, trim_problem, unmet
-from .trim_limits import limiting, over_the_disk
-from .trim_newton import Attempt, Work, newton
-from .trim_start import first_guess
-from .units import STANDARD_GRAVITY, convert
+from .. import _core
+from ..condition import FlightCondition, smooth_step
+from ..errors import NumericalFailure
+from ..model import PITCH, ROLL, YAW, Model
+from ..units import STANDARD_GRAVITY, convert
+from .equations import INCH, scales, trim_problem, unmet
+from .limits import limiting, over_the_disk
+from .newton import Attempt, Work, newton
+from .on_wake import BUDGET, FOLLOWED, LEAST_ADVANCE
+from .start import first_guess
 
-BUDGET = 200
-"""Linearisations of one trim with dynamic inflow at most, 10 ms each."""
-FOLLOWED = 14
-"""Newton steps of a point on a path at most: a path in reach needs four to six."""
-LEAST_ADVANCE = 1.0 / 64.0
-"""Shortest piece of a path that is tried."""
 LARGEST_CHANGE = 15.0
 """Largest change of a stick or of roll and pitch from where the last trims on a path point: 1.5 in, 15 deg."""
 LIGHT = 0.05
@@ -57,20 +52,18 @@ class Reached:
     told: str
 
 
-def solve_condition(
-    model: Model, n_harmonics: int = 8, work: Work | None = None
-) -> tuple[_core.TrimProblem, np.ndarray]:
+def solve_condition(model: Model, work: Work | None = None) -> tuple[_core.TrimProblem, np.ndarray]:
     """Trim of the model's condition with dynamic inflow: its equations and unknowns."""
     work = work or Work(BUDGET)
     if model.target is not None:
-        return to_target(model, n_harmonics, work)
-    problem = trim_problem(model, None, n_harmonics)
+        return to_target(model, work)
+    problem = trim_problem(model, None)
     attempt = newton(model, problem, first_guess(model, problem), work)
     if attempt.met:
         return problem, attempt.x
     ended: list[Reached] = []
-    for path in paths(model, n_harmonics, work):
-        reached = follow(model, path, n_harmonics, work)
+    for path in paths(model, work):
+        reached = follow(model, path, work)
         if reached is None:
             continue
         if reached.share == 1.0:
@@ -82,44 +75,15 @@ def solve_condition(
     raise NumericalFailure(why_none(model, problem, attempt, ended))
 
 
-def solve_on_map(
-    model: Model,
-    inflow_map: np.ndarray,
-    x: np.ndarray,
-    n_harmonics: int = 8,
-    before: np.ndarray | None = None,
-) -> tuple[_core.TrimProblem, np.ndarray]:
-    """Trim on a held inflow map (n_azimuths, n_stations) from the unknowns `x` of a trim on the map `before`."""
-    work = Work(BUDGET)
-    problem = trim_problem(model, inflow_map, n_harmonics)
-    attempt = newton(model, problem, x, work)
-    share = 0.0
-    advance = 0.5
-    while not attempt.met and before is not None and work.left > 0 and advance >= LEAST_ADVANCE:
-        # the map is changed piece by piece
-        part = min(1.0, share + advance)
-        partly = trim_problem(model, before + part * (inflow_map - before), n_harmonics)
-        piece = newton(model, partly, x, work, FOLLOWED)
-        if piece.met:
-            share, x, advance = part, piece.x, 1.5 * advance
-            attempt = piece if share == 1.0 else attempt
-        else:
-            advance *= 0.5
-    if attempt.met:
-        return problem, attempt.x
-    limits = "; ".join(limiting(model, problem, attempt.x, inflow_map)) or "no stick, stall or inflow limit is near"
-    raise NumericalFailure(f"no trim found on the inflow of the wake: {limits} [{unmet(model, problem, attempt.x)}]")
-
-
-def to_target(model: Model, n_harmonics: int, work: Work) -> tuple[_core.TrimProblem, np.ndarray]:
+def to_target(model: Model, work: Work) -> tuple[_core.TrimProblem, np.ndarray]:
     """Trim to a power or a collective with a part of the path left free, from the trim of the condition as it stands.
 
     There the power is another; what it is more turns into climb, what it is less into descent: the start of the trim asked for.
     """
     target = model.target
     given = replace(model, target=None)
-    known, x = solve_condition(given, n_harmonics, work)
-    problem = trim_problem(model, None, n_harmonics)
+    known, x = solve_condition(given, work)
+    problem = trim_problem(model, None)
     first = given.core.trim_layout(known).path
     x = np.insert(x, first, model.question.path[("speed", "flight_path").index(target.free)])
     has = value_of(model, problem, x)
@@ -138,7 +102,7 @@ def to_target(model: Model, n_harmonics: int, work: Work) -> tuple[_core.TrimPro
         ),
         x,
     )
-    reached = follow(model, path, n_harmonics, work)
+    reached = follow(model, path, work)
     if reached is not None and reached.share == 1.0:
         return problem, reached.x
     raise NumericalFailure(why_none(model, problem, attempt, [reached] if reached else []))
@@ -151,7 +115,7 @@ def value_of(model: Model, problem: _core.TrimProblem, x: np.ndarray) -> float:
     return over_the_disk(model, problem, x, None)["power"]
 
 
-def paths(model: Model, n_harmonics: int, work: Work) -> Iterator[Path]:
+def paths(model: Model, work: Work) -> Iterator[Path]:
     """Paths to the condition, the one that tells most where it ends first."""
     c = model.condition
 
@@ -159,7 +123,7 @@ def paths(model: Model, n_harmonics: int, work: Work) -> Iterator[Path]:
         return conditioned(model, c.changed(**values))
 
     if c.bank_share > 0.0:
-        yield to_bank(model, n_harmonics, work)
+        yield to_bank(model, work)
     if c.turn_rate != 0.0:
         yield Path(
             lambda s: to(turn_rate=s * c.turn_rate, bank=np.arctan(s * np.tan(c.bank or 0.0)), **slower_turn(c, s)),
@@ -195,11 +159,11 @@ def slower_turn(condition: FlightCondition, share: float) -> dict[str, float]:
     return {"load_factor": float(np.hypot(1.0, share * np.sqrt(condition.load_factor**2 - 1.0)))}
 
 
-def to_bank(model: Model, n_harmonics: int, work: Work) -> Path:
+def to_bank(model: Model, work: Work) -> Path:
     """From the trim with the nose on the wind, whose bank is found, to the bank asked for."""
     c = model.condition
     aligned = replace(model, condition=c.changed(bank_share=0.0, sideslip=0.0, bank=0.0))
-    _, x = solve_condition(aligned, n_harmonics, work)
+    _, x = solve_condition(aligned, work)
     found, asked = float(x[ROLL]), c.bank or 0.0
     if c.bank_share < 1.0:
         return Path(
@@ -217,9 +181,9 @@ def to_bank(model: Model, n_harmonics: int, work: Work) -> Path:
     )
 
 
-def follow(model: Model, path: Path, n_harmonics: int, work: Work) -> Reached | None:
+def follow(model: Model, path: Path, work: Work) -> Reached | None:
     """Trims along a path, from 0 as far as they go; None where it does not begin."""
-    here, problem = at(model, path, 0.0, n_harmonics)
+    here, problem = at(model, path, 0.0)
     start = first_guess(here, problem) if path.start is None else path.start
     attempt = newton(here, problem, start, work)
     if not attempt.met:
@@ -229,7 +193,7 @@ def follow(model: Model, path: Path, n_harmonics: int, work: Work) -> Reached | 
     advance = 0.25
     while reached.share < 1.0 and advance >= LEAST_ADVANCE and work.left > 0:
         share = min(1.0, reached.share + advance)
-        here, problem = at(model, path, share, n_harmonics)
+        here, problem = at(model, path, share)
         start = reached.x
         if before is not None:
             # along the secant of the last two
@@ -250,17 +214,17 @@ def jumped(model: Model, problem: _core.TrimProblem, expected: np.ndarray, found
     return float(np.max(change)) > LARGEST_CHANGE
 
 
-def at(model: Model, path: Path, share: float, n_harmonics: int) -> tuple[Model, _core.TrimProblem]:
+def at(model: Model, path: Path, share: float) -> tuple[Model, _core.TrimProblem]:
     """Model and equations of a point of a path; at its end those of the condition itself."""
     here = model if share == 1.0 else path.at(share)
-    return here, trim_problem(here, None, n_harmonics)
+    return here, trim_problem(here, None)
 
 
 def conditioned(model: Model, condition: FlightCondition) -> Model:
     """The model in another condition, compiled anew where its mass is another."""
     if condition.gross_mass == model.condition.gross_mass:
         return replace(model, condition=condition)
-    return Model.build(model.aircraft, condition, model.inflow, model.target)
+    return Model.build(model.aircraft, condition, model.inflow, model.target, model.n_harmonics)
 
 
 def mid_sticks(model: Model, problem: _core.TrimProblem) -> np.ndarray:

@@ -12,9 +12,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from . import _core
-from .model import CompiledRotor
-from .trim_equations import scales, tolerances
+from .. import _core
+from ..model import CompiledRotor
+from .equations import scales, tolerances
 
 LARGEST_STEP = 30.0
 """Longest correction of one unknown in its scale: 3 in of stick, 30 deg, 0.03 of inflow, 3 deg of a blade harmonic."""

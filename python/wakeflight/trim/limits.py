@@ -3,15 +3,14 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
-from . import _core
-from .limits import in_vortex_ring, momentum_inflows, stall_along_span, stalled, sticks_beyond
-from .model import Model
-from .monitors.rotor import SLOW, STALLED_SHARE
-from .trim_equations import INCH
+from .. import _core
+from ..limits import in_vortex_ring, momentum_inflows, stall_along_span, stalled, sticks_beyond
+from ..model import Model
+from ..monitors.rotor import SLOW, STALLED_SHARE
+from .equations import INCH
+from .revolution import instants
 
 TAIL_LOADING = 0.15
 """C_T/sigma of a tail rotor, a mean lift coefficient of 0.9, beyond which its thrust formula knows no stall but blades do."""
@@ -63,25 +62,17 @@ def windmill(model: Model, problem: _core.TrimProblem, x: np.ndarray) -> str | N
 
 def over_the_disk(
     model: Model, problem: _core.TrimProblem, x: np.ndarray, inflow_map: np.ndarray | None
-) -> dict[str, Any]:
+) -> dict[str, float]:
     """Share of the disk beyond stall, reversed flow and slow sections not counted, C_T, power [W]; means over a revolution."""
-    core, n_blades = model.core, model.n_blades
-    n = model.steps_per_revolution if inflow_map is None else inflow_map.shape[0]
-    beyond, ct, power = [], [], []
+    seen = [out for _, out in instants(model, problem, x, inflow_map)]
     angles = stall_along_span(model.data["rotor"]["airfoil"], model.stations)
     slow = SLOW * model.tip_speed / model.speed_of_sound
-    incidence = core.trim_stabilator(problem, x)
-    for k in range(n // n_blades):
-        t = 2 * np.pi * k / n / model.omega
-        rows = [(k + b * n // n_blades) % n for b in range(n_blades)]
-        held, mean = (None, 0.0) if inflow_map is None else (inflow_map[rows], model.disk_mean(inflow_map))
-        inputs = _core.Inputs(x[:4], np.zeros(4), 0.0, held, mean, incidence)
-        out = core.outputs(t, *core.trim_state(problem, x, t), inputs)
-        beyond.append(stalled(angles, out["alpha"], out["mach"], slow))
-        ct.append(out["ct"])
-        power.append(sum(out["power"]))
-    stalled_share = float(np.mean(np.array(beyond) @ model.area_weights))
-    return {"stalled": stalled_share, "ct": float(np.mean(ct)), "power": float(np.mean(power))}
+    beyond = np.array([stalled(angles, out["alpha"], out["mach"], slow) for out in seen])
+    return {
+        "stalled": float(np.mean(beyond @ model.area_weights)),
+        "ct": float(np.mean([out["ct"] for out in seen])),
+        "power": float(np.mean([sum(out["power"]) for out in seen])),
+    }
 
 
 def tail_loading(model: Model, problem: _core.TrimProblem, x: np.ndarray) -> float | None:

@@ -5,11 +5,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from . import _core
-from .limits import momentum_inflows
-from .model import PITCH, ROLL, YAW, Model
-from .trim_equations import INCH
-from .units import STANDARD_GRAVITY
+from .. import _core
+from ..limits import momentum_inflows
+from ..model import PITCH, ROLL, YAW, Model
+from ..units import STANDARD_GRAVITY
+from .equations import INCH
 
 LIFT_SLOPE = 5.7  # 1/rad, of a section
 FORWARD_FLAPPING = np.radians(2.0)

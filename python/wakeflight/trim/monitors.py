@@ -3,40 +3,33 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
-from .limits import stall_along_span, table_end
-from .model import CompiledRotor
-from .monitors import Monitor, Places, airframe, rotor, vortices
-from .trim_limits import TAIL_LOADING, tail_flow, tail_in_vortex_ring, tail_loading
-from .trim_results import instants, mean_outputs
-
-if TYPE_CHECKING:
-    from .trim import Trim
-    from .wake_trim import WakeInTrim
+from ..limits import stall_along_span, table_end
+from ..model import CompiledRotor
+from ..monitors import Monitor, Places, airframe, rotor, vortices
+from .limits import TAIL_LOADING, tail_flow, tail_in_vortex_ring, tail_loading
+from .solved import Solved
+from .wake import WakeInTrim
 
 
-def monitors(start: Trim) -> tuple[Monitor, ...]:
+def monitors(start: Solved) -> tuple[Monitor, ...]:
     """Everything that is watched of a trim."""
-    model, mean = start.model, mean_outputs(start)
-    tables = model.rotor_tables["airfoil"]
+    model, mean = start.model, start.mean_outputs()
     places = disk_places(model, start.inflow_map.shape[0])
-    alpha, mach = np.empty_like(start.inflow_map), np.empty_like(start.inflow_map)
-    for rows, out in instants(start):
-        alpha[rows], mach[rows] = out["alpha"], out["mach"]
+    fields = {"inflow": start.inflow_map, **start.maps("alpha", "mach")}
     y = start.state()
     velocity = np.asarray(model.core.hub(y)[0]) / model.tip_speed
     mu, mu_z = mean["mu"], -float(velocity[2])
     theta = start.pitch_controls
     cyclic = float(np.hypot(theta["theta_1c"], theta["theta_1s"]))
     pitch = [theta[name] for name in ("theta_0", "theta_1c", "theta_1s")]
-    usual, bound = model.bounds.inflow(velocity, pitch)
-    section = model.bounds.section(velocity, pitch)
-    fastest = model.bounds.mach(np.linalg.norm(y[:3]), np.linalg.norm(y[3:6]), section)
-    tip_mach = model.tip_speed / model.speed_of_sound
-    stalled = rotor.stall(stall_along_span(tables, model.stations), alpha, mach, model.area_weights, tip_mach, places)
+    *found, stalled = section_monitors(
+        model, fields, velocity, pitch, (np.linalg.norm(y[:3]), np.linalg.norm(y[3:6])), places
+    )
     at_75 = theta["theta_0"] + float(np.interp(0.75, model.bounds.station, model.bounds.twist))
     why = (
         f"mu = {mu:.3f}, C_T/sigma = {mean['ct'] / start.aircraft.solidity:.3f}, "
@@ -44,10 +37,7 @@ def monitors(start: Trim) -> tuple[Monitor, ...]:
     )
     condition = start.condition
     ring = tail_in_vortex_ring(tail_flow(model, start.problem, start.x))
-    found = [
-        rotor.induced_velocity(start.inflow_map, usual, bound, places),
-        rotor.mach_number(mach, fastest, table_end(tables), places),
-        rotor.angle_of_attack(alpha, places),
+    found += [
         stalled,
         rotor.pitch({"collective": at_75, "cyclic": cyclic}, float(np.arctan2(-mu_z, 0.75)), why),
         rotor.axial_flow(mu, mu_z, mean["ct"], start.inflow.is_dynamic),
@@ -62,6 +52,34 @@ def monitors(start: Trim) -> tuple[Monitor, ...]:
     if start.wake is not None:
         found.append(rotor.vortex_distance(closest_vortex(model, start.wake)))
     return tuple(found)
+
+
+def section_monitors(
+    model: CompiledRotor,
+    fields: dict[str, np.ndarray],
+    velocity: np.ndarray,
+    theta: Sequence[float] | np.ndarray,
+    motion: tuple[Any, Any],
+    places: Places,
+    passage: int = 1,
+) -> list[Monitor]:
+    """Inflow, Mach number, angle of attack and stall of the sections.
+
+    fields: inflow, mach, alpha (..., n_stations). velocity: of the hub over the tip speed (..., 3); theta: theta_0, theta_1c,
+    theta_1s (..., 3) [rad]; motion: speed [m/s] and rate [rad/s] of what carries the rotor. passage: samples that a share of the
+    disk is a mean over.
+    """
+    tables = model.rotor_tables["airfoil"]
+    usual, bound = model.bounds.inflow(velocity, theta)
+    section = model.bounds.section(velocity, theta)
+    fastest = model.bounds.mach(*motion, section)
+    angles, tip_mach = stall_along_span(tables, model.stations), model.tip_speed / model.speed_of_sound
+    return [
+        rotor.induced_velocity(fields["inflow"], usual, bound, places),
+        rotor.mach_number(fields["mach"], fastest, table_end(tables), places),
+        rotor.angle_of_attack(fields["alpha"], places),
+        rotor.stall(angles, fields["alpha"], fields["mach"], model.area_weights, tip_mach, places, passage),
+    ]
 
 
 def disk_places(model: CompiledRotor, n_azimuths: int) -> Places:

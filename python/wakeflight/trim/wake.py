@@ -11,10 +11,9 @@ from typing import Any
 
 import numpy as np
 
-from . import _core
-from .errors import InputError
-from .exchange import MarchingExchange
-from .model import CompiledRotor
+from .. import _core
+from ..errors import InputError
+from ..model import CompiledRotor
 
 CONTROL_TOLERANCE = 1e-3
 """Change of a pitch control [rad] between trims on a free wake at which they rest."""
@@ -36,11 +35,7 @@ class WakeInTrim:
             raise InputError(f"wake: {reason}") from reason
         self.n = model.steps_per_revolution
         self.psi = 2 * np.pi * np.arange(self.n) / self.n
-        self.counters = {
-            "relaxation_iterations": 0,
-            "wake_segment_evaluations": 0,
-            "circulation_followed": 0,
-        }
+        self.counters = dict.fromkeys(("relaxation_iterations", "circulation_followed", "wake_segment_evaluations"), 0)
 
     def __getstate__(self) -> dict[str, Any]:
         """The core's state by value."""
@@ -49,11 +44,6 @@ class WakeInTrim:
     def __setstate__(self, state: dict[str, Any]) -> None:
         """The core's state made again."""
         self.__dict__.update(state | {"core": _core.SteadyWake.from_bytes(state["core"])})
-
-    @property
-    def lambda_far(self) -> np.ndarray:
-        """Far inflow (n, n_stations)."""
-        return self.core.lambda_far
 
     @property
     def circulation(self) -> np.ndarray:
@@ -94,10 +84,7 @@ class WakeInTrim:
             self.core.converge(core, y, x[: self.model.n_controls], motion, self.model.inflow.max_loops)
         except ValueError as reason:
             raise InputError(f"wake: {reason}") from reason
-        sweeps, followed, evaluations = self.core.counters
-        self.counters["relaxation_iterations"] = sweeps
-        self.counters["circulation_followed"] = followed
-        self.counters["wake_segment_evaluations"] = evaluations
+        self.counters = dict(zip(self.counters, self.core.counters, strict=True))
         return self.inflow_map
 
     @property
@@ -140,12 +127,3 @@ class WakeInTrim:
                 f"moves by {moved:.1e} between passes (allowed {tolerance:.1e})"
             )
         return texts
-
-    def marching(self, model: CompiledRotor) -> MarchingExchange:
-        """A time-marching wake of `model` started from this one."""
-        return MarchingExchange(model, self)
-
-
-def marching_map(march: MarchingExchange, problem: Any, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Inflow and circulation maps (n, n_stations) of one revolution marched at the trimmed motion."""
-    return march.turn(problem, x)

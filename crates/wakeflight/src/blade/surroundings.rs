@@ -1,0 +1,45 @@
+//! What surrounds a blade: section tables, air, rotor speed, inflow.
+
+use super::aerodynamics::Air;
+use super::thin_section::ThinSection;
+use crate::airfoil::span::StationAirfoils;
+
+/// What surrounds a blade and turns it.
+#[derive(Clone, Copy, Debug)]
+pub struct BladeEnvironment<'a> {
+    /// Section table of every station.
+    pub airfoils: &'a StationAirfoils,
+    /// Air.
+    pub air: Air,
+    /// Rotor speed [rad/s].
+    pub rotor_speed: f64,
+}
+
+/// Induced inflow of a blade, positive down (v_i / tip speed).
+#[derive(Clone, Copy, Debug)]
+pub enum BladeInflow<'a, S> {
+    /// lambda_0 + (lambda_c x_h + lambda_s y_h)/R at the section's place: lambda_0, lambda_s, lambda_c.
+    Disk([S; 3]),
+    /// One value per station, held.
+    Stations(&'a [f64]),
+    /// One value per station, with derivatives.
+    Variable(&'a [S]),
+    /// Thin sections: one value per station at three quarters of the chord, with derivatives.
+    ThreeQuarter {
+        /// Law of the sections.
+        law: ThinSection,
+        /// Inflow.
+        inflow: &'a [S],
+    },
+    /// Thin sections, held: inflow at the quarter chord turns the lift, that at three quarters makes it.
+    TwoLines {
+        /// Law of the sections.
+        law: ThinSection,
+        /// Inflow at the quarter chord.
+        quarter: &'a [f64],
+        /// Inflow at three quarters, less that of the section's own bound vortex in two dimensions.
+        three_quarter: &'a [f64],
+    },
+    /// No air at all.
+    Vacuum,
+}

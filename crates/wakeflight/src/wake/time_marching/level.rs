@@ -1,0 +1,134 @@
+//! The new level of a step: what travels moves on, blades release anew, markers advance and are looked at.
+
+use super::{TimeMarchingWake, Work};
+use crate::wake::choices::Form;
+use crate::wake::error::WakeError;
+use crate::wake::filament::{aged_core_squared, distance, stretched_core_squared};
+use crate::wake::geometry::release_points;
+use crate::wake::inboard_sheet;
+use crate::wake::instant::RotorInstant;
+use crate::wake::motion::{BladeState, HubMotion};
+use crate::wake::stencils::Cell;
+use crate::wake::vectors::{difference, mean, sum};
+use crate::wake::velocity_field::InducedVelocity;
+
+/// Largest motion of a marker in one step, over R.
+const LARGEST_DISPLACEMENT: f64 = 0.5;
+
+impl<F: InducedVelocity> TimeMarchingWake<F> {
+    /// Registers of the new level: everything that travels with the markers moves on by one, the blades release anew.
+    /// Markers are still those of the old level.
+    pub(super) fn shift(&self, work: &mut Work, hub: &HubMotion, blades: &[BladeState], circulation: &[f64]) {
+        let Work { next, carrier, .. } = work;
+        let options = &self.options;
+        let (n_k, n_t) = (options.n_segments(), options.trailers_per_blade());
+        let (n_r, n_sheet) = (options.n_stations, options.sheet_filaments());
+        next.copy(&self.instant);
+        carrier.clone_from(&self.carrier);
+        let old_carry = inboard_sheet::convection(options, &self.hub, self.mean_inflow);
+        let new_carry = inboard_sheet::convection(options, hub, self.mean_inflow);
+        let drift = mean(old_carry, new_carry).map(|v| v * options.delta_psi() / options.rotor.omega);
+        for (blade, state) in blades.iter().enumerate() {
+            let gamma = &circulation[blade * n_r..(blade + 1) * n_r];
+            next.place_blade(options, &self.grid, blade, state, gamma);
+            for (t, release) in release_points(options, &self.grid, state).into_iter().enumerate() {
+                let m = next.free.marker(blade * n_t + t, 0);
+                next.free.circulation.copy_within(m..m + n_k, m + 1);
+                carrier.copy_within(m..m + n_k, m + 1);
+                carrier[m] = match options.form {
+                    Form::Displacement => release,
+                    Form::Position => [0.0; 3],
+                };
+                next.free.position[m] = release;
+            }
+            if n_sheet > 0 {
+                for (s, point) in inboard_sheet::release_points(options, state).into_iter().enumerate() {
+                    let m = next.sheet.marker(blade * n_sheet + s, 0);
+                    next.sheet.circulation.copy_within(m..m + n_k, m + 1);
+                    for k in (1..=n_k).rev() {
+                        next.sheet.position[m + k] = sum(self.instant.sheet.position[m + k - 1], drift);
+                    }
+                    next.sheet.position[m] = point;
+                }
+            }
+            next.release(options, &self.grid, blade, gamma);
+        }
+    }
+
+    /// Unknown at the new level into `new`; `corner` gives that of a cell whose marker k is the one of the index.
+    pub(super) fn march(
+        &self,
+        next: &RotorInstant,
+        carrier: &[[f64; 3]],
+        corner: impl Fn(&Cell, usize) -> [f64; 3],
+        new: &mut Vec<[f64; 3]>,
+    ) {
+        let [now, past, older] = &self.levels;
+        new.resize(now.len(), [0.0; 3]);
+        for filament in 0..next.free.n_filaments {
+            let m = next.free.marker(filament, 0);
+            new[m] = difference(next.free.position[m], carrier[m]);
+            for i in m..m + self.options.n_segments() {
+                let cell = Cell {
+                    b: now[i + 1],
+                    c: new[i],
+                    d: now[i],
+                    e: past[i + 1],
+                    f: past[i],
+                    g: older[i + 1],
+                    h: older[i],
+                    i: (i > m).then(|| past[i - 1]),
+                };
+                new[i + 1] = corner(&cell, i);
+            }
+        }
+    }
+
+    /// Positions and cores of the new level from its unknown.
+    pub(super) fn place_markers(&self, next: &mut RotorInstant, carrier: &[[f64; 3]], unknown: &[[f64; 3]]) {
+        let n_k = self.options.n_segments();
+        for (i, position) in next.free.position.iter_mut().enumerate() {
+            if i % (n_k + 1) != 0 {
+                *position = sum(carrier[i], unknown[i]);
+            }
+        }
+        if !self.options.core_stretching {
+            return;
+        }
+        let old = &self.instant.free;
+        for filament in 0..old.n_filaments {
+            next.free.core_squared[filament * n_k] = aged_core_squared(&self.options, 0);
+            for k in 1..n_k {
+                next.free.core_squared[filament * n_k + k] = stretched_core_squared(
+                    &self.options,
+                    old.core_squared[filament * n_k + k - 1],
+                    old.segment_length(filament, k - 1),
+                    next.free.segment_length(filament, k),
+                );
+            }
+        }
+    }
+
+    /// Largest motion of a marker over R; an error beyond the limit or if a position is not finite.
+    pub(super) fn guard(&self, next: &RotorInstant) -> Result<f64, WakeError> {
+        let mut largest: f64 = 0.0;
+        for filament in 0..next.free.n_filaments {
+            let m = next.free.marker(filament, 0);
+            for k in 1..=self.options.n_segments() {
+                let displacement = distance(next.free.position[m + k], self.instant.free.position[m + k - 1])
+                    / self.options.rotor.radius;
+                if displacement.is_nan() || displacement > LARGEST_DISPLACEMENT {
+                    return Err(WakeError::Diverged {
+                        filament,
+                        marker: k,
+                        displacement,
+                        limit: LARGEST_DISPLACEMENT,
+                        step: self.steps + 1,
+                    });
+                }
+                largest = largest.max(displacement);
+            }
+        }
+        Ok(largest)
+    }
+}

@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""One coupling step of what carries a rotor: inflow held, states integrated, exchange with the air [ribera2004, Fig. 2]."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from . import _core
+from .exchange import Exchange
+from .integrators import Integrator
+from .model import CompiledRotor
+
+
+class StickPath(Protocol):
+    """Sticks over a coupling step, linear in time between corners."""
+
+    def at(self, t: float) -> np.ndarray:
+        """Positions (4,) [m from the stop] at time `t` [s]."""
+
+    def rate(self, t: float) -> np.ndarray:
+        """Rates (4,) [m/s] at time `t` [s]."""
+
+    def pieces(self, t0: float, t1: float) -> list[tuple[float, float]]:
+        """The interval t0..t1 cut at the corners."""
+
+
+@dataclass(frozen=True)
+class Instant:
+    """Where a coupling step begins: state, its consistent rate, and the inputs that begin there."""
+
+    step: int
+    t: float
+    y: np.ndarray
+    y_dot: np.ndarray
+    inputs: _core.Inputs
+    stick: np.ndarray
+    mean_inflow: float
+    stabilator: float
+
+
+class Observer(Protocol):
+    """What hangs on a simulation and cannot change it: a recorder, a monitor, a live view."""
+
+    def __call__(self, instant: Instant) -> None:
+        """A coupling step begins."""
+
+
+class Stepping:
+    """A rotor and what carries it, stepped through time: inflow held over a coupling step, states integrated over it, exchange.
+
+    Owns states, exchange with the air, memory of the integrator, controls, servo and clock. An aircraft flies so (`Simulation`),
+    and so moves a rotor on a stand.
+    """
+
+    stabilator = "held"
+
+    def _begin(self, model: CompiledRotor, solver: Integrator, y: np.ndarray, stick: np.ndarray, step: int = 0) -> None:
+        """At the states `y` after `step` steps; the exchange comes by itself."""
+        self.model, self.solver = model, solver
+        self.delta_t = 2 * np.pi / model.omega / model.steps_per_revolution
+        self.seconds = {"wake": 0.0, "dynamics": 0.0}
+        self.exchange: Exchange
+        self._y, self._step, self._stick, self._incidence = y, step, stick, 0.0
+
+    @property
+    def t(self) -> float:
+        """Time since the start [s]: steps flown times the length of one, never a sum."""
+        return self._step * self.delta_t
+
+    @property
+    def steps(self) -> int:
+        """Coupling steps flown."""
+        return self._step
+
+    @property
+    def y(self) -> np.ndarray:
+        """A copy of the states; names and units are those of `model.core.state_names()`."""
+        return np.array(self._y)
+
+    @property
+    def wake(self) -> np.ndarray | None:
+        """Tip vortices (n_blades, n_ages, 3) [m], hub axes; None without a wake."""
+        tips = self.exchange.tips(self._step)
+        return None if tips is None else tips[0]
+
+    def follow(self, sticks: StickPath, observer: Observer | None = None) -> None:
+        """Fly one coupling step along `sticks`; `observer` sees where it begins."""
+        t, end = self.t, (self._step + 1) * self.delta_t
+        begin = self.instant(sticks)
+        if observer is not None:
+            observer(begin)
+
+        clock = time.perf_counter()
+        if not self.solver.begun:
+            self.solver.start(t, self._y, begin.y_dot)
+        inputs = begin.inputs
+        for t0, t1 in sticks.pieces(t, end):
+            if t0 > t:
+                inputs = coupling_inputs(sticks, t0, *self.exchange.held(self._step), self._incidence)
+            self.solver.advance_to(t1, inputs)
+        self._y = self.solver.state
+        self.seconds["dynamics"] += time.perf_counter() - clock
+
+        self._step += 1
+        self._stick = sticks.at(end)
+        clock = time.perf_counter()
+        self.exchange.reach(self._step, self._y, self._stick, sticks.rate(end))
+        self.seconds["wake"] += time.perf_counter() - clock
+
+    def instant(self, sticks: StickPath, ends: bool = False) -> Instant:
+        """Where the next coupling step along `sticks` begins; `ends`: no step follows, the servo rests."""
+        t = self.t
+        stick = sticks.at(t)
+        if self.stabilator == "scheduled" and self._step > 0 and not ends:
+            follow = self.model.core.followed_incidence
+            self._incidence = follow(self._incidence, self._y, float(stick[2]), self.delta_t)
+        inputs, mean = self._inputs(stick, sticks.rate(t))
+        clock = time.perf_counter()
+        y_dot = self.solver.consistent(t, self._y, inputs)
+        self.seconds["dynamics"] += time.perf_counter() - clock
+        return Instant(self._step, t, self._y, y_dot, inputs, stick, mean, self._incidence)
+
+    def _inputs(self, stick: np.ndarray, stick_rate: np.ndarray) -> tuple[_core.Inputs, float]:
+        held, mean = self.exchange.held(self._step)
+        return _core.Inputs(stick, stick_rate, self.t, held, mean, self._incidence), mean
+
+
+def coupling_inputs(
+    sticks: StickPath, t: float, held: np.ndarray | None, mean: float, stabilator_incidence: float
+) -> _core.Inputs:
+    """Sticks from `t` on; inflow and stabilator held."""
+    return _core.Inputs(sticks.at(t), sticks.rate(t), t, held, mean, stabilator_incidence)
