@@ -4,7 +4,7 @@
 //! depend on the motion of the instant, exactly and with derivatives, and need no place in y; at the end of the step they are kept.
 
 use super::lag::{Drive, Law, MAX_STATES, States, equilibrium, followed};
-use super::model::Model;
+use super::model::{Model, of_law};
 use super::{Coefficients, Flow, Section};
 use crate::numerics::scalar::Real;
 use serde::{Deserialize, Serialize};
@@ -36,7 +36,7 @@ impl Memory {
 impl Model {
     /// Memory of a section at rest in `flow`.
     pub fn at_rest(self, section: &Section, flow: &Flow<f64>) -> Memory {
-        self.with(Rest { section, flow })
+        of_law!(self, law => Memory::of(law, section, flow, equilibrium(law, section, flow)))
     }
 
     /// Coefficients `elapsed` [s] after the step's start, in the flow of the instant.
@@ -47,73 +47,18 @@ impl Model {
         flow: &Flow<S>,
         elapsed: f64,
     ) -> Coefficients<S> {
-        self.with(Now { section, memory, flow, elapsed })
+        of_law!(self, law => {
+            let before = memory.states.map(S::cst);
+            let states = followed(law, section, &before, &memory.drives(), flow, elapsed);
+            law.coefficients(section, flow, &states)
+        })
     }
 
-    /// Memory after a step of `dt` [s] that ended in `flow`; the next one starts in `ahead`.
-    ///
-    /// Between the two the inflow that is held jumps. States that follow the motion of the air take the jump with them: a staircase
-    /// of inflow sends no waves.
-    pub fn kept(
-        self,
-        section: &Section,
-        memory: &Memory,
-        flow: &Flow<f64>,
-        dt: f64,
-    ) -> Memory {
-        self.with(Kept { section, memory, flow, dt })
-    }
-}
-
-/// Something asked of a law.
-pub(super) trait Ask {
-    /// Answer.
-    type Answer;
-    /// Asked of a law with states.
-    fn of<L: Law>(self, law: &L) -> Self::Answer;
-}
-
-struct Rest<'a> {
-    section: &'a Section<'a>,
-    flow: &'a Flow<f64>,
-}
-
-impl Ask for Rest<'_> {
-    type Answer = Memory;
-    fn of<L: Law>(self, law: &L) -> Memory {
-        Memory::of(law, self.section, self.flow, equilibrium(law, self.section, self.flow))
-    }
-}
-
-struct Now<'a, S> {
-    section: &'a Section<'a>,
-    memory: &'a Memory,
-    flow: &'a Flow<S>,
-    elapsed: f64,
-}
-
-impl<S: Real> Ask for Now<'_, S> {
-    type Answer = Coefficients<S>;
-    fn of<L: Law>(self, law: &L) -> Coefficients<S> {
-        let before = self.memory.states.map(S::cst);
-        let states =
-            followed(law, self.section, &before, &self.memory.drives(), self.flow, self.elapsed);
-        law.coefficients(self.section, self.flow, &states)
-    }
-}
-
-struct Kept<'a> {
-    section: &'a Section<'a>,
-    memory: &'a Memory,
-    flow: &'a Flow<f64>,
-    dt: f64,
-}
-
-impl Ask for Kept<'_> {
-    type Answer = Memory;
-    fn of<L: Law>(self, law: &L) -> Memory {
-        let states =
-            followed(law, self.section, &self.memory.states, &self.memory.drives(), self.flow, self.dt);
-        Memory::of(law, self.section, self.flow, states)
+    /// Memory after a step of `elapsed` [s] that ended in `flow`, in which the next one starts.
+    pub fn kept(self, section: &Section, memory: &Memory, flow: &Flow<f64>, elapsed: f64) -> Memory {
+        of_law!(self, law => {
+            let states = followed(law, section, &memory.states, &memory.drives(), flow, elapsed);
+            Memory::of(law, section, flow, states)
+        })
     }
 }

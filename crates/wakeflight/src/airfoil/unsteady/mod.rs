@@ -10,12 +10,14 @@ pub mod hgm;
 pub mod impulsive;
 pub mod indicial;
 pub mod lag;
+pub mod memory;
 pub mod model;
 pub mod oye;
 pub mod separation;
 
 pub use cycle::{Cycle, CycleError, Motion, Oscillation};
 pub use lag::{MAX_STATES, States};
+pub use memory::Memory;
 pub use model::Model;
 pub use separation::Separation;
 
