@@ -10,9 +10,11 @@ use super::hub_loads::{BladeLoads, Sum};
 use super::hub_motion::{Carrier, HubMotion};
 use super::kinematics::{BladeAxes, ModalMotion, PitchMotion, SectionMotion, combine};
 use super::model::Blade;
+use super::sections_in_time::Moving;
 use super::stations::{AeroStation, StructuralPoint};
 use super::strain::add_strain_gradient;
 use super::surroundings::{BladeEnvironment, BladeInflow};
+use crate::airfoil::unsteady::Memory;
 use crate::numerics::frames::Vec3;
 use crate::numerics::scalar::Real;
 
@@ -172,6 +174,31 @@ impl Blade {
         })
     }
 
+    /// Memory of every station at the end of a step that ended in this motion, where sections remember.
+    pub fn kept(
+        &self,
+        environment: &BladeEnvironment,
+        hub: &HubMotion<f64>,
+        psi: f64,
+        modal: &ModalMotion<f64>,
+        control: &PitchMotion<f64>,
+        inflow: &BladeInflow<f64>,
+    ) -> Vec<Memory> {
+        let BladeInflow::InTime { inflow: values, sections } = inflow else { return Vec::new() };
+        let carrier = Carrier::new(hub, psi, self.precone, environment.rotor_speed);
+        let tip_speed = environment.rotor_speed * self.radius;
+        let kept = self.stations.iter().enumerate().map(|(j, station)| {
+            let pitch = PitchMotion { theta: control.theta + station.twist, ..*control };
+            let m = station.shapes.motion(self.n_modes, modal, &pitch);
+            let wind = -(carrier.velocity + carrier.omega.cross(m.position) + m.velocity)
+                - carrier.up * (values[j] * tip_speed);
+            let omega = carrier.omega + m.omega;
+            let moving = Moving { geometry: &station.geometry, motion: &m, wind, omega };
+            sections.kept(j, (environment.airfoils.at(j), &environment.air), &moving)
+        });
+        kept.collect()
+    }
+
     /// Wind of every station without inflow, into `winds`.
     pub fn section_winds(
         &self,
@@ -240,6 +267,11 @@ impl Blade {
             - carrier.up * (lambda * tip_speed);
         let omega = carrier.omega + m.omega;
         let (airfoil, air, geometry) = (environment.airfoils.at(j), &environment.air, &station.geometry);
+        if let BladeInflow::InTime { sections, .. } = inflow {
+            let moving = Moving { geometry, motion: &m, wind, omega };
+            let found = sections.air(j, (airfoil, air), &moving);
+            return (m, found);
+        }
         let thin = match inflow {
             BladeInflow::ThreeQuarter { law, .. } => Some((law, wind)),
             BladeInflow::TwoLines { law, quarter, three_quarter } => {
@@ -272,6 +304,7 @@ impl Blade {
             BladeInflow::Variable(values) => values[j],
             BladeInflow::ThreeQuarter { inflow, .. } => inflow[j],
             BladeInflow::TwoLines { quarter, .. } => S::cst(quarter[j]),
+            BladeInflow::InTime { inflow, .. } => S::cst(inflow[j]),
             BladeInflow::Vacuum => S::zero(),
         }
     }

@@ -18,6 +18,7 @@ pub mod quadrature;
 pub mod rigid;
 pub mod rigid_body;
 pub mod section;
+pub mod sections_in_time;
 pub mod stations;
 pub mod strain;
 pub mod surroundings;

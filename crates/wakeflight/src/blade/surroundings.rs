@@ -1,6 +1,7 @@
 //! What surrounds a blade: section tables, air, rotor speed, inflow.
 
 use super::aerodynamics::Air;
+use super::sections_in_time::SectionsInTime;
 use super::thin_section::ThinSection;
 use crate::airfoil::span::StationAirfoils;
 
@@ -39,6 +40,13 @@ pub enum BladeInflow<'a, S> {
         quarter: &'a [f64],
         /// Inflow at three quarters, less that of the section's own bound vortex in two dimensions.
         three_quarter: &'a [f64],
+    },
+    /// Sections that remember: one value per station, held.
+    InTime {
+        /// Inflow.
+        inflow: &'a [f64],
+        /// What the sections remember.
+        sections: SectionsInTime<'a>,
     },
     /// No air at all.
     Vacuum,
