@@ -10,7 +10,16 @@ from wakeflight.simulation import flight_model
 PHASES = ("seconds_trim", "seconds_convergence", "seconds_wake", "seconds_dynamics")
 
 
-def start(inflow: str, blades: str = "flexible") -> "wf.Trim":
+FLOWN = (
+    ("dynamic inflow", "dynamic", "dynamic", "rigid"),
+    ("dynamic inflow", "dynamic", "dynamic", "flexible"),
+    ("paper", wf.RelaxationWake.preset("paper"), wf.TimeMarchingWake.preset("paper"), "flexible"),
+    ("standard", "relaxation", "time-marching", "flexible"),
+)
+"""What is flown: name, inflow model of the trim and of the flight, blades."""
+
+
+def start(inflow: "str | wf.RelaxationWake", blades: str = "flexible") -> "wf.Trim":
     """Descent of the arrested-descent manoeuvre, trimmed."""
     condition = wf.FlightCondition(speed="80 kt", flight_path="-6 deg", altitude="5250 ft", weight="16000 lbf")
     aircraft = wf.load_aircraft("uh60a")
@@ -40,8 +49,8 @@ def derivatives(blades: str, repetitions: int) -> list[list[str]]:
 
     timed = {
         f"residual of {n} states": lambda: model.core.residual(0.0, y, y_dot, inputs, out),
-        "exact Jacobian": lambda: model.core.jacobian(0.0, y, y_dot, inputs, 1.0, 100.0, matrix),
-        "dF/dy_dot alone": lambda: room.renew_mass(model.core, 0.0, y, inputs),
+        "exact Jacobian": lambda: model.core.jacobian(0.0, y, y_dot, inputs, (1.0, 100.0), matrix),
+        "dF/dy_dot alone": lambda: room.renew(model.core, (0.0, y), y_dot, inputs, False),
     }
     medians = {name: seconds(call, repetitions)[0] for name, call in timed.items()}
     medians["the Jacobian by one-sided differences"] = seconds(by_differences, max(3, repetitions // 20))[0]
@@ -53,11 +62,12 @@ def maneuvers(quick: bool, ns_per_evaluation: float) -> str:
     """Each phase of a flight against the time flown; the floor is the segment evaluations at the kernel's speed."""
     rows = []
     revolutions = 2.0 if quick else None
-    for inflow, blades in (("dynamic", "rigid"), ("dynamic", "flexible"), ("relaxation", "flexible")):
+    for name, inflow, marched, blades in FLOWN:
         trimmed = start(inflow, blades)
         for maneuver in (wf.roll_reversal(),) if quick else (wf.roll_reversal(), wf.arrested_descent()):
             for integrator in ("ida", "fixed"):
-                flights = [wf.fly(trimmed, maneuver, revolutions=revolutions, integrator=integrator) for _ in range(3)]
+                given = {"inflow": marched, "revolutions": revolutions, "integrator": integrator}
+                flights = [wf.fly(trimmed, maneuver, **given) for _ in range(3)]
                 # the median flight: short ones feel whatever else the machine does
                 flight = sorted(flights, key=lambda each: float(each.data.attrs["seconds_dynamics"]))[1]
                 attributes = flight.data.attrs
@@ -65,9 +75,8 @@ def maneuvers(quick: bool, ns_per_evaluation: float) -> str:
                 flown = float(flight.data.time[-1])
                 in_flight = phases[2] + phases[3]
                 floor = float(attributes.get("segment_evaluations", 0)) * ns_per_evaluation * 1e-9
-                marched = "dynamic inflow" if inflow == "dynamic" else "time marching"
                 cells = [f"{value:.3g}" for value in (flown, *phases)]
-                names = [maneuver.name, blades, marched, integrator]
+                names = [maneuver.name, blades, name, integrator]
                 rows.append([*names, *cells, f"{flown / in_flight:.3g}", f"{floor:.2f}"])
     head = ["manoeuvre", "blades", "inflow", "integrator", "flown [s]", "trim [s]", "convergence [s]"]
     return table([*head, "wake [s]", "dynamics [s]", "real-time factor", "wake's floor [s]"], rows)

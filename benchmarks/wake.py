@@ -36,7 +36,11 @@ def naive() -> float:
 def lattice(n_trailers: int, steps: int, turns: int, summation: str) -> tuple[_core.TimeMarchingWake, int, int]:
     """Rigid wake of four blades in forward flight, ready to march; its markers and its segments."""
     n_stations = max(20, n_trailers - 1)
-    kind = {"trailers": "tip"} if n_trailers == 1 else {"trailers": "full-span", "n_trailers": n_trailers}
+    kind = (
+        {"trailers": "tip"}
+        if n_trailers == 1
+        else {"trailers": "full-span", "n_trailers": n_trailers, "far_wake_turns": 0}
+    )
     options = {
         "rotor": {
             "n_blades": 4,
@@ -56,10 +60,10 @@ def lattice(n_trailers: int, steps: int, turns: int, summation: str) -> tuple[_c
         "relaxation": {},
         "marching": {},
     }
-    relaxation = _core.RelaxationWake(json.dumps(options), *HUB, 0.02)
+    relaxation = _core.RelaxationWake(json.dumps(options), HUB, 0.02)
     circulation = np.tile(20.0 * np.sin(np.linspace(0.1, 3.0, n_stations)), (steps, 1))
-    relaxation.set_state(*HUB, np.zeros(steps), np.zeros(steps), circulation)
-    wake = _core.TimeMarchingWake.from_relaxation(relaxation, 0, json.dumps(options))
+    relaxation.set_state(HUB, np.zeros((steps, 2)), circulation)
+    wake = _core.TimeMarchingWake(relaxation, 0, json.dumps(options))
     length = steps * turns
     markers = 4 * n_trailers * (length + 1)
     return wake, markers, 4 * (n_trailers * length + (n_trailers - 1) * length + n_stations)
@@ -67,12 +71,12 @@ def lattice(n_trailers: int, steps: int, turns: int, summation: str) -> tuple[_c
 
 def one_step(wake: _core.TimeMarchingWake, steps: int) -> float:
     """Processor seconds of a step of a marching wake: two fields, predictor, corrector."""
-    n_stations = wake.inflow_far().shape[1]
+    n_stations = max(20, wake.lattice().shape[1] - 1)
     circulation = np.tile(20.0 * np.sin(np.linspace(0.1, 3.0, n_stations)), (4, 1))
     psi = 2 * np.pi * (np.arange(4) / 4 + 1 / steps)
     blades = np.column_stack([psi, np.zeros(4), np.zeros(4)])
     begun = time.process_time()
-    wake.step(*HUB, blades, circulation)
+    wake.step(HUB, blades, circulation)
     return time.process_time() - begun
 
 
@@ -167,7 +171,7 @@ def caradonna_tung() -> str:
         run = wf.tunnel(CARADONNA_TUNG, collective="8 deg", rpm=1250, inflow=kind(**options))
         wall, busy = time.perf_counter() - begun, time.process_time() - busy
         solved = run.solution
-        evaluations = solved.wake.relaxation.segment_evaluations
+        evaluations = solved.wake.counters["wake_segment_evaluations"]
         if solved.march is not None:
             evaluations += solved.march.segment_evaluations
         thrust = [turn.passages["aero_force"][..., 2].sum(axis=1).mean() for turn in solved.revolutions][-4:]

@@ -28,8 +28,8 @@ from wakeflight.trim.solve import solve_condition
 from wakeflight.trim.wake import WakeInTrim
 
 PASSES = 3
-COMMON = {"azimuth_step": "15 deg", "turns": 3.0, "max_loops": 15}
-FULL_SPAN = {"trailers": "full-span", "n_trailers": 12}
+COMMON = {"trailers": "tip", "azimuth_step": "15 deg", "turns": 3.0, "far_wake_turns": 0, "max_loops": 15}
+FULL_SPAN = {"trailers": "full-span", "n_trailers": 12, "trailer_core": 0.02}
 CONDITIONS = {
     "baseline": {},
     "level": {"flight_path": "0 deg"},
@@ -42,7 +42,7 @@ JUDGES = {
     "full-span, all shed": {"shed_wake": "all"},
     "full-span, no shed": {"shed_wake": "none"},
     "full-span, near wake 60 deg": {"near_wake_angle": "60 deg"},
-    "full-span, core 0.04 R": {"trailer_core": 0.04},
+    "full-span, core 0.04 R": {"trailer_core": 0.04, "core_radius": 0.04},
     "full-span, 18 trailers": {"n_trailers": 18},
 }
 CANDIDATES = {

@@ -32,7 +32,7 @@ def run(aircraft: wf.Aircraft, options: dict) -> dict:
     trim_options = {**COMMON, **options}
     marching = {name: value for name, value in trim_options.items() if name != "max_loops"}
     start = wf.trim(aircraft, inflow=wf.RelaxationWake(**trim_options))
-    inflow = wf.TimeMarchingWake(convergence_revolutions=CONVERGENCE, **marching)
+    inflow = wf.TimeMarchingWake(convergence_revolutions=CONVERGENCE, evaluation="pece", **marching)
     data = wf.fly(start, wf.arrested_descent(start="0.05 s"), inflow=inflow, revolutions=REVOLUTIONS).data
     return {
         "time": data["time"].values.tolist(),

@@ -21,5 +21,10 @@ def baseline_relaxation(uh60a):
 
 
 @pytest.fixture(scope="session")
+def baseline_paper(uh60a):
+    return wf.trim(uh60a, inflow=wf.RelaxationWake.preset("paper"))
+
+
+@pytest.fixture(scope="session")
 def baseline_marching(uh60a):
     return wf.trim(uh60a, inflow="time-marching")

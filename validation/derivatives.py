@@ -196,8 +196,8 @@ def periodic_roots(trim: Trim, steps: int = 360) -> np.ndarray:
         t = (k + 0.5) * h
         y, y_dot = core.trim_state(trim.problem, trim.x, t)
         inputs = trim.inputs(t)
-        core.jacobian(t, y, y_dot, inputs, 1.0, 0.0, stiffness)
-        core.jacobian(t, y, y_dot, inputs, 0.0, 1.0, mass)
+        core.jacobian(t, y, y_dot, inputs, (1.0, 0.0), stiffness)
+        core.jacobian(t, y, y_dot, inputs, (0.0, 1.0), mass)
         half = 0.5 * h * stiffness
         transition = np.linalg.solve(mass + half, (mass - half) @ transition)
     exponents = np.log(np.linalg.eigvals(transition).astype(complex)) / period

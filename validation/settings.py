@@ -36,7 +36,7 @@ FULL_SPAN = "full-span wake, means in time, second-order lifting line"
 @cache
 def full_span_hover(rotor, collective, rpm):
     """Rotor in hover with a marching full-span wake: means of revolutions 7 to 18."""
-    wake = wf.TimeMarchingWake(trailers="full-span", n_trailers=10, azimuth_step="15 deg", turns=10)
+    wake = wf.TimeMarchingWake.preset("reference", evaluation="pece")
     return wf.tunnel(
         rotor,
         collective=collective,

@@ -31,7 +31,7 @@ ROOMS = {
     "model": ("model", "modes", "vortex", "wing", "airfoil_loop"),
     "monitors": ("monitors", "limits"),
     "aircraft": ("aircraft", "thinning"),
-    "inputs": ("condition", "inflow", "maneuvers", "options", "presets", "regime", "units", "text"),
+    "inputs": ("condition", "inflow", "maneuvers", "options", "presets", "regime", "rotor_speed", "units", "text"),
     "results": ("results",),
     "basics": ("errors", "references", "progress", "views"),
 }

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import json
-import numbers
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,7 +12,7 @@ from .aircraft import Aircraft, Rotor
 from .aircraft.section_at import section_at
 from .errors import InputError, NumericalFailure
 from .results import assemble_loop
-from .units import quantity
+from .units import number, quantity, whole
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -47,7 +46,7 @@ def airfoil_loop(
     `cl_circulatory`, `alpha_effective`, `separation`, the model's `states` by name, and the `work` of the air in a cycle
     (negative: damped). No stall vortex: deep stall lacks its peaks of lift and moment.
     """
-    for name, value, allowed in (("motion", motion, MOTIONS), ("model", model, _core.UNSTEADY_MODELS)):
+    for name, value, allowed in (("motion", motion, MOTIONS), ("model", model, _core.unsteady_models())):
         if value not in allowed:
             raise InputError.of(name, value, f"allowed: {', '.join(allowed)}")
     section = section_at(airfoil, station)
@@ -57,10 +56,10 @@ def airfoil_loop(
         "model": model,
         "mean": quantity(mean, "rad", "mean"),
         "amplitude": quantity(amplitude, "rad", "amplitude"),
-        "reduced_frequency": _number(k, "k"),
-        "mach": _number(mach, "mach"),
-        "pitch_axis": _number(pitch_axis, "pitch_axis") if motion == "pitch" else None,
-        "steps": _whole(steps, "steps"),
+        "reduced_frequency": number("k", k),
+        "mach": number("mach", mach),
+        "pitch_axis": number("pitch_axis", pitch_axis) if motion == "pitch" else None,
+        "steps": whole("steps", steps, 36, 100_000),
     }
     try:
         cycle = _core.airfoil_cycle(json.dumps(asked))
@@ -81,17 +80,3 @@ def airfoil_loop(
         "references": ", ".join(dict.fromkeys((*cycle.sources, *section.references))),
     }
     return assemble_loop(arrays, attributes)
-
-
-def _number(value: Any, field: str) -> float:
-    """A finite number; the core says which are allowed."""
-    if isinstance(value, bool) or not isinstance(value, numbers.Real) or not abs(float(value)) < float("inf"):
-        raise InputError.of(field, value, "must be a finite number")
-    return float(value)
-
-
-def _whole(value: Any, field: str) -> int:
-    """A whole number, not negative."""
-    if isinstance(value, bool) or not isinstance(value, numbers.Integral) or value < 0:
-        raise InputError.of(field, value, "must be a whole number")
-    return int(value)

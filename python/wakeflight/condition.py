@@ -9,7 +9,7 @@ from typing import Any, Protocol
 
 from . import regime as regimes
 from .errors import InputError
-from .units import STANDARD_GRAVITY, convert, mass_of_weight, quantity, shown
+from .units import STANDARD_GRAVITY, convert, mass_of_weight, number, quantity, shown
 
 HEADING_FREE_SPEED = convert(60.0, "kt", "m/s")
 """Speed [m/s] from which trim asks for zero bank, heading free."""
@@ -224,9 +224,7 @@ def _load_factor(value: Any, turn_rate: Any) -> float | None:
     if turn_rate is not None:
         raise InputError.of("turn_rate", turn_rate, "trim finds it where a load factor is given")
     low, high = _LOAD_FACTOR
-    if isinstance(value, bool) or not isinstance(value, int | float) or not low <= value <= high:
-        raise InputError.of("load_factor", value, f"must be a number between {low:g} and {high:g}")
-    return float(value)
+    return number("load_factor", value, low, high)
 
 
 def _turn(turn: Any, load_factor: Any) -> str | None:

@@ -85,8 +85,11 @@ class Exchange:
         Nodes (n_blades, n_ages, 3) [m], hub axes, their circulation (n_blades, n_ages) [m2/s], core radii of the segments
         (n_blades, n_ages - 1) [m].
         """
-        tips = self.core.tips(step)
-        return None if tips is None else (self._in_hub_axes(tips[0]), *tips[1:])
+        lattice = self.core.lattice(step)
+        if lattice is None:
+            return None
+        position, circulation, core_radius = (np.ascontiguousarray(each[:, -1]) for each in lattice)
+        return self._in_hub_axes(position), circulation, core_radius
 
     def lattice(self, step: int) -> tuple[np.ndarray, np.ndarray] | None:
         """Every trailer, root to tip: positions (n_blades, n_trailers, n_ages, 3) [m], hub axes, and circulation [m2/s]."""
@@ -110,7 +113,7 @@ class Exchange:
     @property
     def segment_evaluations(self) -> int:
         """Counted evaluations of the segment law."""
-        return int(self.core.segment_evaluations)
+        return self.core.counters.get("segment_evaluations", 0)
 
     # --- of a marching wake ---------------------------------------------------------------------------------
 

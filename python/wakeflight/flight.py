@@ -19,6 +19,7 @@ from .model import Model
 from .monitors import warnings as monitored
 from .progress import Progress, Silent
 from .recorder import Recorder
+from .rotor_speed import CONSTANT, RotorSpeed, unflown
 from .simulation import RTOL, Simulation
 from .thinning import thinned
 from .trim import INCH, Trim
@@ -114,6 +115,7 @@ def fly(
     progress: Progress | Silent | None = None,
     rtol: float = RTOL,
     stabilator: str = "held",
+    rotor_speed: RotorSpeed = CONSTANT,
 ) -> Flight:
     """Fly `maneuver` from `start`.
 
@@ -121,6 +123,9 @@ def fly(
     bend, explicit where they are rigid.
     rtol: relative tolerance of the solver, its absolute ones go with it.
     stabilator: `held` at its trim incidence, or `scheduled`, following its schedule within the rate of its servo.
+    rotor_speed: `constant`, or pairs (time, share of the nominal speed) such as `[("0.5 s", 1.0), ("1.5 s", 0.95)]`, linear
+    between them and steady after the last; with dynamic inflow. The tail rotor is geared to the main rotor; a coupling step stays
+    a step of azimuth; coefficients and inflow are counted at the nominal speed.
 
     inflow: name or model, by default time-marching from a trim on a free wake, dynamic from a dynamic one. Wake options that
     depend on the regime (turns kept, far wake, relaxation) stay those of the trimmed condition for the whole flight, whatever
@@ -130,14 +135,15 @@ def fly(
     """
     progress = progress or Silent()
     begun = time.perf_counter()
-    sim = Simulation.prepared(start, inflow, integrator, rtol, stabilator)
-    model, delta_t = sim.model, sim.delta_t
+    sim = Simulation.prepared(start, inflow, integrator, rtol, stabilator, rotor_speed)
+    model, clock = sim.model, sim.clock
     travel = start.aircraft.stick_travel_in
     maneuver = maneuver.for_aircraft(travel, model.omega)
     n_steps = flown_steps(model, maneuver, revolutions)
     warnings = maneuver.check_travel(start.stick_si / INCH, travel, None, start.aircraft.stick_rate_limit_in)
-    warnings += maneuver.check_end(max(n_steps * delta_t, maneuver.duration(model.omega)))
-    maneuver = thinned(maneuver, delta_t, n_steps)
+    warnings += maneuver.check_end(max(clock.time(n_steps), maneuver.duration(model.omega)))
+    warnings += unflown(model.rotor_speed, clock.time(n_steps))
+    maneuver = thinned(maneuver, clock, n_steps)
     sticks = Sticks(maneuver, start.stick_si)
     for text in maneuver.adapted:
         progress(f"note: {text}")
@@ -183,9 +189,11 @@ def fly(
 
 
 def flown_steps(model: Model, maneuver: Maneuver, revolutions: float | None) -> int:
-    """Coupling steps of the flight."""
+    """Coupling steps of the flight: the revolutions asked for, or as many as last as long as the manoeuvre."""
     if revolutions is None:
         revolutions = maneuver.duration_revolutions(model.omega)
+        if model.rotor_speed:
+            revolutions = model.clock.steps(0, maneuver.duration(model.omega)) / model.steps_per_revolution
     if not 0 < revolutions <= 10000:
         raise InputError.of("revolutions", revolutions, "must lie above 0 and at most 10000")
     return max(1, round(revolutions * model.steps_per_revolution))

@@ -33,7 +33,7 @@ def monitors(run: Recorder) -> tuple[Monitor, ...]:
         *airframe.sticks(inches, aircraft.stick_travel_in, time),
         airframe.power(engine, aircraft.limits.power, time),
         *airframe.torque(shaft, aircraft.limits.torque, time),
-        *airframe.rotor_speed(model.omega, aircraft.limits.rotor_speed),
+        *airframe.rotor_speed(run.rotor_speed, aircraft.limits.rotor_speed),
         airframe.ground(y[:, 12], run.start.condition.altitude, time),
     ]
     return (*found, *_of_wake(run, time))

@@ -73,7 +73,8 @@ class Inflow:
         """Check every option and that they go together; angles become radians."""
         for option in options_of(self.name).values():
             object.__setattr__(self, option.name, option.checked(getattr(self, option.name)))
-        _checked(self._groups())
+        own = {field.name: getattr(self, field.name) for field in fields(self)}
+        _checked(_grouped(self.name, {**own, **resolved(own, "forward")}))
 
     def __repr__(self) -> str:
         """The options that differ from their defaults, as they are typed."""
@@ -118,12 +119,7 @@ class Inflow:
 
     def _groups(self) -> dict[str, dict[str, Any]]:
         """Options by the group the core reads them in; those that are None left out."""
-        groups: dict[str, dict[str, Any]] = {}
-        for option in options_of(self.name).values():
-            group = groups.setdefault(option.group, {})
-            if (value := getattr(self, option.name)) is not None:
-                group[option.name] = value
-        return groups
+        return _grouped(self.name, {field.name: getattr(self, field.name) for field in fields(self)})
 
 
 class FreeWake(Inflow):
@@ -187,6 +183,16 @@ class FreeWake(Inflow):
             "omega": float(rotor.omega),
         }
         return _checked(given)
+
+
+def _grouped(model: str, values: dict[str, Any]) -> dict[str, dict[str, Any]]:
+    """Values of the options of `model` by the group the core reads them in; those that are None left out."""
+    groups: dict[str, dict[str, Any]] = {}
+    for option in options_of(model).values():
+        group = groups.setdefault(option.group, {})
+        if values[option.name] is not None:
+            group[option.name] = values[option.name]
+    return groups
 
 
 def _checked(groups: dict[str, dict[str, Any]]) -> dict[str, dict[str, Any]]:

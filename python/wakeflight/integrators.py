@@ -146,10 +146,8 @@ class IdaIntegrator:
 
     def _jacobian(self, t: float, y: np.ndarray, y_dot: np.ndarray, f: np.ndarray, c_j: float, out: np.ndarray) -> None:
         which = self._found(t)
-        if which == "dF/dy":
-            self._linearised.renew(self.model.core, t, y, y_dot, self._inputs)
-        elif which == "dF/dy_dot":
-            self._linearised.renew_mass(self.model.core, t, y, self._inputs)
+        if which is not None:
+            self._linearised.renew(self.model.core, (t, y), y_dot, self._inputs, which == "dF/dy")
         self._linearised.matrix(c_j, out)
 
     def advance_to(self, t: float, inputs: _core.Inputs) -> None:
@@ -205,7 +203,7 @@ class FixedIntegrator:
         self.model, self.rtol, self.parts = model, rtol, parts
         self.explicit = not model.flexible
         self.atol = atol_scale * absolute_tolerances(model)
-        self._solver: _core.FixedStep | _core.ExplicitStep | None = None
+        self._solver: _core.FixedStep | None = None
         self._y: np.ndarray | None = None
 
     @property
@@ -236,7 +234,7 @@ class FixedIntegrator:
     def _begin(self, t: float, y: np.ndarray) -> None:
         core = self.model.core
         if self.explicit:
-            self._solver = _core.ExplicitStep(core, t, y, self.rtol, self.atol)
+            self._solver = _core.FixedStep.explicit(core, t, y, self.rtol, self.atol)
         else:
             self._solver = _core.FixedStep(core, t, y, self.rtol, self.atol, self.NEWTON_SHARE, np.radians(self.KEPT))
         self._y = y

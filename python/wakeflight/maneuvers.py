@@ -15,7 +15,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from importlib import resources
-from numbers import Real
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -25,7 +24,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_valida
 from .errors import InputError, one_line
 from .references import known_keys
 from .text import read_toml
-from .units import quantity
+from .units import number, quantity
 
 STICKS = ("lateral", "longitudinal", "collective", "pedal")
 """Order of sticks everywhere: right +, aft +, up +, right +, inches from the stop."""
@@ -71,13 +70,13 @@ class Maneuver:
         if (self.revolutions is None) == (self.seconds is None):
             raise InputError.of("duration", self.name, "must be given either in revolutions or in seconds")
         length = self.revolutions if self.revolutions is not None else self.seconds
-        if not 0.0 < _real("duration", length) <= 10000.0:
+        if not 0.0 < number("duration", length) <= 10000.0:
             raise InputError.of("duration", length, "must lie above 0 and at most 10000")
         for name, value, unit, low, high in (
             ("travel", self.travel_in, "in", 0.1, 100.0),
             ("rotor_speed", self.rotor_speed, "rad/s", 0.1, 1000.0),
         ):
-            if value is not None and not low <= _real(name, value) <= high:
+            if value is not None and not low <= number(name, value) <= high:
                 raise InputError.of(name, value, f"must lie between {low:g} and {high:g} {unit}")
         if self.rotor_speed is not None and self.seconds is not None:
             allowed = "belongs to a duration in revolutions; one in seconds does not use it"
@@ -372,19 +371,6 @@ def _known(sources: list[str]) -> tuple[str, ...]:
     return tuple(sources)
 
 
-def _real(name: str, value: Any) -> float:
-    """`value` as a float; InputError where it is no finite number."""
-    if isinstance(value, bool) or not isinstance(value, Real):
-        raise InputError.of(name, value, "must be a number")
-    try:
-        number = float(value)
-    except OverflowError:
-        number = math.inf
-    if not math.isfinite(number):
-        raise InputError.of(name, value, "must be finite")
-    return number
-
-
 def _check_history(given: Any) -> None:
     """Refuse what is no stick with its corners, times ascending from 0 s, inches from 0."""
     if not isinstance(given, tuple | list) or len(given) != 2:
@@ -396,7 +382,7 @@ def _check_history(given: Any) -> None:
         if not isinstance(corner, tuple | list) or len(corner) != 2:
             raise InputError.of(stick, corner, "must hold pairs of numbers (time s, inches from trim)")
         for each in corner:
-            _real(stick, each)
+            number(stick, each)
     if len(corners) < 2:
         raise InputError.of(stick, list(corners), "must have at least two corner points [time s, inches from trim]")
     if corners[0][0] < 0.0:

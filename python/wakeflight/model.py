@@ -6,16 +6,18 @@ from __future__ import annotations
 import json
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeVar
 
 import numpy as np
 
 from . import _core
 from .aircraft import Aircraft
 from .condition import FlightCondition, Target
+from .errors import InputError
 from .inflow import InflowModel, RelaxationWake
 from .monitors import Bounds, bounds
 from .results import disk
+from .rotor_speed import Clock, Corners, clock_of
 from .units import STANDARD_GRAVITY
 
 ROLL, PITCH, YAW = 4, 5, 6
@@ -42,6 +44,7 @@ class CompiledRotor:
     inflow: InflowModel
     core: Any
     speed_of_sound: float
+    rotor_speed: Corners
     n_harmonics: int
     """Harmonics of the blades' periodic motion in its trims."""
     n_controls: ClassVar[int]
@@ -54,13 +57,28 @@ class CompiledRotor:
 
     @property
     def omega(self) -> float:
-        """Rotor speed [rad/s]."""
+        """Nominal rotor speed [rad/s]."""
         return self.rotor["omega"]
+
+    @cached_property
+    def clock(self) -> Clock:
+        """When the coupling steps are."""
+        return clock_of(self.core, self.omega, self.steps_per_revolution, self.rotor_speed)
 
     @property
     def tip_speed(self) -> float:
-        """Tip speed [m/s]."""
+        """Nominal tip speed [m/s]."""
         return self.rotor["omega"] * self.rotor["radius"]
+
+    @property
+    def top_share(self) -> float:
+        """Highest speed of the rotor over its nominal one, at least 1: what its motion can give grows with it."""
+        return max((1.0, *(share for _, share in self.rotor_speed)))
+
+    @property
+    def overspeed(self) -> float:
+        """How far the rotor's speed goes above the nominal one [rad/s]."""
+        return (self.top_share - 1.0) * self.omega
 
     @property
     def n_blades(self) -> int:
@@ -181,6 +199,20 @@ def flight_regime(aircraft: Aircraft, condition: FlightCondition) -> str:
     return condition.regime(float(aircraft.rotor.omega) * float(aircraft.rotor.radius))
 
 
+Compiled = TypeVar("Compiled", bound=CompiledRotor)
+
+
+def at_speed(model: Compiled, corners: Corners) -> Compiled:
+    """`model` with its rotor at the speed of `corners`; itself where there are none. A free wake has none yet."""
+    if not corners:
+        return model
+    if not model.inflow.is_dynamic:
+        allowed = f"must be constant with a free wake (inflow = {model.inflow.name}); it needs inflow = dynamic"
+        raise InputError.of("rotor_speed", "a history", allowed)
+    core = model.core.with_rotor_speed([(t, share * model.omega) for t, share in corners])
+    return replace(model, core=core, rotor_speed=corners)
+
+
 @dataclass(frozen=True)
 class Model(CompiledRotor):
     """Aircraft, condition and inflow model compiled into F(y_dot, y, u; t) = 0."""
@@ -195,6 +227,8 @@ class Model(CompiledRotor):
     target: Target | None = None
     """What a trim meets with a part of the condition's path left free."""
     n_harmonics: int = 8
+    rotor_speed: Corners = ()
+    """Time [s] and share of the nominal rotor speed; none at constant speed."""
     n_controls: ClassVar[int] = 4
 
     @classmethod
@@ -269,7 +303,12 @@ class Model(CompiledRotor):
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Compiled anew where it is needed."""
-        return Model.build, (self.aircraft, self.condition, self.inflow, self.target, self.n_harmonics)
+        built = (self.aircraft, self.condition, self.inflow, self.target, self.n_harmonics)
+        return _rebuilt, (built, self.rotor_speed)
+
+    def at_speed(self, corners: Corners) -> Model:
+        """This model with a rotor speed in time."""
+        return at_speed(self, corners)
 
     @property
     def rotor_tables(self) -> dict[str, Any]:
@@ -289,3 +328,8 @@ class Model(CompiledRotor):
     def accessory_power(self) -> float:
         """Power of accessories [W]."""
         return self.data["accessory_power"]
+
+
+def _rebuilt(built: tuple[Any, ...], corners: Corners) -> Model:
+    """A model compiled anew of what `Model.build` takes."""
+    return Model.build(*built).at_speed(corners)

@@ -50,7 +50,9 @@ class Option:
     """One option of one or several inflow models.
 
     kind: number, whole, switch, word. unit: rad, R (rotor radius), c (chord) ...; range: least, largest value, whether the
-    least is itself refused. default: None where it is left open (`left_open` says what holds then) or depends on the regime.
+    least is itself refused. default: None where it is left open (`left_open` says what holds then) or depends on the regime;
+    lattice: what replaces that of the regime where trailers leave all over the span. tip_alone: whether it acts on a lone tip
+    vortex only.
     """
 
     name: str
@@ -62,6 +64,8 @@ class Option:
     words: dict[str, str]
     default: Any
     by_regime: dict[str, Any]
+    lattice: Any
+    tip_alone: bool
     left_open: str
     meaning: str
     sources: tuple[str, ...]
@@ -123,8 +127,12 @@ class Option:
     def default_in_words(self) -> str:
         """The default: a value, the three of the regimes, or what holds where none is given."""
         if self.by_regime:
-            shown = (f"{self.by_regime[regime]:g} {words}" for regime, words in REGIMES.items())
-            return f"by regime: {', '.join(shown)}"
+            values = self.by_regime.values()
+            if len(set(values)) == 1:
+                return f"{next(iter(values))}"
+            shown = (f"{self.by_regime[regime]} {words}" for regime, words in REGIMES.items())
+            lattice = "" if self.lattice is None else f"; {self.lattice} with full-span trailers"
+            return f"by regime: {', '.join(shown)}{lattice}"
         if self.left_open:
             return f"None, {self.left_open}"
         return f"{self.shown(self.default)}"
@@ -144,6 +152,11 @@ class Option:
         return f"be {'a whole number' if self.kind == 'whole' else 'a number'} between {low:g} and {high:g}"
 
 
+def _number(value: Any) -> Any:
+    """A number as it is typed: 4 for 4.0 of the core; words and None as they are."""
+    return int(value) if isinstance(value, float) and value.is_integer() else value
+
+
 def _told(raw: dict[str, Any]) -> Option:
     """One descriptor of the core."""
     default, angle = raw["default"], raw["unit"] == "rad"
@@ -158,7 +171,9 @@ def _told(raw: dict[str, Any]) -> Option:
         range=None if bounds is None else (bounds["low"], bounds["high"], bounds["above"]),
         words={each["word"]: each["meaning"] for each in raw["words"]},
         default=Radians(always) if angle and always is not None else always,
-        by_regime=default.get("by_regime", {}),
+        by_regime={name: _number(value) for name, value in default.get("by_regime", {}).items()},
+        lattice=_number(raw["lattice"]),
+        tip_alone=raw["tip_alone"],
         left_open=default.get("left_open", ""),
         meaning=raw["meaning"],
         sources=tuple(raw["sources"]),
@@ -190,13 +205,20 @@ def option_of(model: str, name: str, field: str = "option") -> Option:
 
 
 def resolved(values: dict[str, Any], regime: str) -> dict[str, Any]:
-    """Those of `values` that are None because their default depends on the regime, with the number of `regime`.
+    """Those of `values` that are None because their default depends on the regime, with that of `regime`.
 
-    No turns are repeated in any regime where a vortex cylinder closes the wake, or where trailers all over the span are
-    free: their old end tumbles, and its repeats would drive it.
+    Where an option is set that acts on a lone tip vortex only, trailers left open are that. No turns are repeated where a
+    vortex cylinder closes the wake or less than two turns are free.
     """
     found = {name: BY_REGIME[name][regime] for name, value in values.items() if value is None and name in BY_REGIME}
-    if "far_wake_turns" in found and (values["far_wake"] == "cylinder" or values["trailers"] == "full-span"):
+    if "trailers" not in values:
+        return found
+    told = {option.name: option for option in DECLARED}
+    if "trailers" in found and any(told[name].tip_alone and v != told[name].default for name, v in values.items()):
+        found["trailers"] = "tip"
+    if (values["trailers"] or found["trailers"]) == "full-span":
+        found.update({name: told[name].lattice for name in found if told[name].lattice is not None})
+    if "far_wake_turns" in found and (values["far_wake"] == "cylinder" or (values["turns"] or found["turns"]) < 2):
         found["far_wake_turns"] = 0
     return found
 

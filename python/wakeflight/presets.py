@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """Presets of the inflow models: options that belong together, by a name.
 
-`standard` is what the core declares as default. `paper` is what the manoeuvres of the paper are flown with (docs/paper.md): one
-tip vortex, an exchange at every 10 deg, the dynamics on the inflow of a revolution with the relaxation wake, ten revolutions at
-frozen states before the time-marching wake flies; it stays what it is where a default moves. `reference` is the finest wake that
-was found to settle in forward flight and, marched, in hover (docs/numerics/wake-defaults.md): free trailers all over the span.
+`standard` is what the core declares as default: in forward flight three trailers a blade and what is shed between them for two
+turns, what is older in its mean; in hover and axial descent a lone tip vortex (docs/numerics/wake-defaults.md). `paper` is what
+the manoeuvres of the paper are flown with (docs/paper.md): one tip vortex, an exchange at every 10 deg, the dynamics on the
+inflow of a revolution with the relaxation wake, ten revolutions at frozen states before the time-marching wake flies; it stays
+what it is where a default moves. `reference` is the finest wake that was found to settle in forward flight and, marched, in
+hover: free trailers all over the span.
 """
 
 from __future__ import annotations
@@ -35,7 +37,14 @@ PRESETS: dict[str, dict[str, Any]] = {
         "extrapolate": False,
         "max_loops_response": 10,
     },
-    "reference": {"trailers": "full-span", "n_trailers": 10, "azimuth_step": "15 deg", "turns": 10},
+    "reference": {
+        "trailers": "full-span",
+        "n_trailers": 10,
+        "trailer_core": 0.02,
+        "azimuth_step": "15 deg",
+        "turns": 10,
+        "far_wake_turns": 0,
+    },
 }
 """Options of each preset; a model takes those it has."""
 

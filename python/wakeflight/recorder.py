@@ -13,6 +13,7 @@ from .maneuvers import Maneuver
 from .model import Model
 from .modes import mode_labels
 from .monitors import Monitor, Places, rotor, variables
+from .rotor_speed import shares
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -138,6 +139,8 @@ class Recorder:
         arrays |= {name: values[:n] for name, values in self.blade.items()}
         arrays |= {name: values[:n] for name, values in self.scalars.items() if name != "load_power"}
         del arrays["vortex_blade_distance"]
+        if model.rotor_speed:
+            arrays["rotor_speed"] = self.rotor_speed
         arrays["energy_balance"] = self.energy_balance()
         arrays |= variables(monitors)
         arrays |= {name: values[:n] for name, values in self.blade_angles.items()}
@@ -166,6 +169,11 @@ class Recorder:
         power, time, energy = self.scalars["load_power"][:n], self.time[:n], self.scalars["energy"][:n]
         work = np.concatenate([[0.0], np.cumsum(0.5 * (power[1:] + power[:-1]) * np.diff(time))])
         return energy - energy[0] - work
+
+    @property
+    def rotor_speed(self) -> np.ndarray:
+        """Speed of the rotor (time,) [rad/s]."""
+        return self.model.omega * shares(self.model.rotor_speed, self.time[: self.n_recorded])
 
     def vortex_distance(self) -> np.ndarray | None:
         """Smallest distance of a tip vortex from a blade (time,), in core radii; None where the wake does not tell it."""
@@ -224,6 +232,7 @@ class Recorder:
             "inflow": {"model": model.inflow.name, **model.inflow.as_attributes()},
             "discretisation": start.aircraft.discretisation._asdict(),
             "trim_inflow": start.inflow.name,
+            **({"rotor_speed": [list(corner) for corner in model.rotor_speed]} if model.rotor_speed else {}),
             "maneuver": {
                 "name": self.maneuver.name,
                 "adapted": list(self.maneuver.adapted),
@@ -265,7 +274,8 @@ def check_sample(
     velocity = np.asarray(model.core.hub(y)[0]) / model.tip_speed
     theta = model.pitch_controls(stick)[[2, 0, 1]]
     _, bound = bounds.inflow(velocity, theta)
-    fastest = bounds.mach(speed, rate, bounds.section(velocity, theta))
+    bound = bound * model.top_share
+    fastest = bounds.mach(speed, rate + model.overspeed, bounds.section(velocity, theta))
     if largest > bound:
         raise NumericalFailure(rotor.beyond_motion(largest, bound, places.of(np.abs(inflow)[None])))
     if mach.max() > fastest:

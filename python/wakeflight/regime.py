@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """The regime a rotor works in: the same for trim, flight and stand.
 
-In forward flight the wake is blown clear of the disk; in hover and climb it stays below it, and what lies below the turns kept
-is felt; in axial descent the old end lies about the rotor.
+In forward flight the wake is blown clear of the disk; at low speed it stays about it for turns and rolls up beside it; in hover
+and climb it stays below it, and what lies below the turns kept is felt; in axial descent the old end lies about the rotor.
 """
 
 from __future__ import annotations
@@ -12,10 +12,16 @@ import math
 AXIAL_ADVANCE_RATIO = 0.03
 """Advance ratio below which a condition counts as axial: hover, climb or descent."""
 
-REGIMES = {"forward": "forward", "hover": "hover and climb", "descent": "axial descent"}
+LOW_ADVANCE_RATIO = 0.085
+"""Advance ratio from which free trailers all over the span settle: at 0.047 and 0.093 they do, at 0.07 they circle."""
+
+REGIMES = {"forward": "forward", "slow": "low speed", "hover": "hover and climb", "descent": "axial descent"}
 """Regimes by name, each in words."""
 
-REVOLUTIONS = {"forward": (12, 4), "hover": (24, 12), "descent": (40, 20)}
+AXIAL = ("hover", "descent")
+"""Regimes in which wakes do not become periodic."""
+
+REVOLUTIONS = {"forward": (12, 4), "slow": (12, 4), "hover": (24, 12), "descent": (40, 20)}
 """Revolutions marched on the stand and, of them, the last ones averaged. Axial wakes do not become periodic: they need more."""
 
 
@@ -25,5 +31,5 @@ def regime(in_plane: float, climb: float, tip_speed: float) -> str:
     Both speeds and the tip speed in one unit. Axial descent begins where the hub descends at all.
     """
     if math.fabs(in_plane) >= AXIAL_ADVANCE_RATIO * tip_speed:
-        return "forward"
+        return "forward" if math.fabs(in_plane) >= LOW_ADVANCE_RATIO * tip_speed else "slow"
     return "descent" if -climb > 1e-6 * tip_speed else "hover"

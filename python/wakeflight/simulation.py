@@ -25,6 +25,7 @@ from .integrators import INTEGRATORS
 from .maneuvers import STICKS
 from .model import Model, flight_regime
 from .progress import Progress, Silent
+from .rotor_speed import CONSTANT, RotorSpeed, history
 from .snapshot import Snapshot
 from .stepping import Stepping
 from .trim import INCH, Trim
@@ -92,7 +93,7 @@ class Simulation(Stepping):
 
     inflow: name or model as for `fly`, by default time-marching from a trim on a free wake, dynamic from a dynamic one; a
     marching wake goes through its convergence phase here. integrator: `fixed`, one step of order five per coupling step, or
-    `ida`, variable in step and order. control: None, sticks come with every step. rtol, stabilator: as for `fly`.
+    `ida`, variable in step and order. control: None, sticks come with every step. rtol, stabilator, rotor_speed: as for `fly`.
 
     `snapshot()` is everything that what comes depends on; after `restore(snapshot)` the same bits follow, here, in a copy or in
     another process. IDA hides its memory (history, order, step, derivatives): with `ida` a snapshot, and a restoration too,
@@ -111,20 +112,27 @@ class Simulation(Stepping):
         *,
         rtol: float = RTOL,
         stabilator: str = "held",
+        rotor_speed: RotorSpeed = CONSTANT,
         progress: Progress | Silent | None = None,
     ):
         if control is not None:
             raise InputError.of("control", control, "allowed: None, sticks come with every step")
-        self._prepare(start, flight_model(start, inflow), integrator, rtol, stabilator)
+        self._prepare(start, flight_model(start, inflow, rotor_speed), integrator, rtol, stabilator)
         self.converge(progress or Silent())
 
     @classmethod
     def prepared(
-        cls, start: Trim, inflow: str | InflowModel | None, integrator: str, rtol: float, stabilator: str
+        cls,
+        start: Trim,
+        inflow: str | InflowModel | None,
+        integrator: str,
+        rtol: float,
+        stabilator: str,
+        rotor_speed: RotorSpeed = CONSTANT,
     ) -> Simulation:
         """A simulation that has been checked; `converge` must follow."""
         sim = cls.__new__(cls)
-        sim._prepare(start, flight_model(start, inflow), integrator, rtol, stabilator)
+        sim._prepare(start, flight_model(start, inflow, rotor_speed), integrator, rtol, stabilator)
         return sim
 
     def converge(self, progress: Progress | Silent) -> None:
@@ -169,10 +177,10 @@ class Simulation(Stepping):
         absent: at trim. Each goes from where it is to the new place linearly within the first step and stays there.
         """
         target = self._asked(sticks)
-        n = 1 if dt is None else max(1, round(quantity(dt, "s", "dt") / self.delta_t))
+        n = 1 if dt is None else max(1, round(self.clock.steps(self._step, quantity(dt, "s", "dt"))))
         try:
             for _ in range(n):
-                self.follow(Ramp(self.t, (self._step + 1) * self.delta_t, self._stick, target))
+                self.follow(Ramp(self.t, self.clock.time(self._step + 1), self._stick, target))
         except (ArithmeticError, np.linalg.LinAlgError) as reason:
             raise NumericalFailure(f"simulation stopped at t = {self.t:.4f} s: {reason}") from reason
         return self.state
@@ -220,7 +228,7 @@ class Simulation(Stepping):
             raise InputError.of("snapshot", kind, "must be what Simulation.snapshot returned") from reason
         exchange = Exchange.unpacked(self.model, snapshot.parts["exchange"])
         y = np.frombuffer(snapshot.parts["y"], "<f8").copy()
-        self.solver.recall(snapshot.step * self.delta_t, y, snapshot.parts["integrator"])
+        self.solver.recall(self.clock.time(snapshot.step), y, snapshot.parts["integrator"])
         self.exchange, self._y, self._step = exchange, y, snapshot.step
         self._stick = np.array(snapshot.scalars["stick"])
         self._incidence = snapshot.scalars["stabilator"]
@@ -238,6 +246,7 @@ class Simulation(Stepping):
             "inflow": str(model.inflow),
             "integrator": f"{self.integrator}, rtol {self.rtol!r}",
             "stabilator": self.stabilator,
+            "rotor speed": str(model.rotor_speed or CONSTANT),
             "trim": hashlib.sha256(np.asarray(start.x, "<f8").tobytes()).hexdigest()[:16],
         }
 
@@ -284,7 +293,12 @@ def _revived(
     return sim
 
 
-def flight_model(start: Trim, inflow: str | InflowModel | None) -> Model:
+def flight_model(start: Trim, inflow: str | InflowModel | None, rotor_speed: RotorSpeed = CONSTANT) -> Model:
+    """Model to fly with, its rotor at `rotor_speed`."""
+    return _trimmed_model(start, inflow).at_speed(history(rotor_speed))
+
+
+def _trimmed_model(start: Trim, inflow: str | InflowModel | None) -> Model:
     """Model to fly with; it must belong to what the trim was made with.
 
     What depends on the regime is that of the trimmed condition, and stays so where the manoeuvre leads into another.

@@ -61,15 +61,20 @@ class Stepping:
     def _begin(self, model: CompiledRotor, solver: Integrator, y: np.ndarray, stick: np.ndarray, step: int = 0) -> None:
         """At the states `y` after `step` steps; the exchange comes by itself."""
         self.model, self.solver = model, solver
-        self.delta_t = 2 * np.pi / model.omega / model.steps_per_revolution
+        self.clock = model.clock
         self.seconds = {"wake": 0.0, "dynamics": 0.0}
         self.exchange: Exchange
         self._y, self._step, self._stick, self._incidence = y, step, stick, 0.0
 
     @property
     def t(self) -> float:
-        """Time since the start [s]: steps flown times the length of one, never a sum."""
-        return self._step * self.delta_t
+        """Time since the start [s], that of the steps flown by the clock, never a sum."""
+        return self.clock.time(self._step)
+
+    @property
+    def delta_t(self) -> float:
+        """Length of the coupling step that begins [s]."""
+        return self.clock.duration(self._step)
 
     @property
     def steps(self) -> int:
@@ -89,7 +94,7 @@ class Stepping:
 
     def follow(self, sticks: StickPath, observer: Observer | None = None) -> None:
         """Fly one coupling step along `sticks`; `observer` sees where it begins."""
-        t, end = self.t, (self._step + 1) * self.delta_t
+        t, end = self.t, self.clock.time(self._step + 1)
         begin = self.instant(sticks)
         if observer is not None:
             observer(begin)
@@ -98,7 +103,7 @@ class Stepping:
         if not self.solver.begun:
             self.solver.start(t, self._y, begin.y_dot)
         inputs = begin.inputs
-        for t0, t1 in sticks.pieces(t, end):
+        for t0, t1 in self.clock.cut(sticks.pieces(t, end)):
             if t0 > t:
                 inputs = coupling_inputs(sticks, t0, *self.exchange.held(self._step), self._incidence)
             self.solver.advance_to(t1, inputs)
@@ -117,7 +122,7 @@ class Stepping:
         stick = sticks.at(t)
         if self.stabilator == "scheduled" and self._step > 0 and not ends:
             follow = self.model.core.followed_incidence
-            self._incidence = follow(self._incidence, self._y, float(stick[2]), self.delta_t)
+            self._incidence = follow(self._incidence, self._y, float(stick[2]), self.clock.duration(self._step - 1))
         inputs, mean = self._inputs(stick, sticks.rate(t))
         clock = time.perf_counter()
         y_dot = self.solver.consistent(t, self._y, inputs)

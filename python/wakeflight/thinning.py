@@ -17,6 +17,7 @@ import numpy as np
 from scipy.linalg import solveh_banded
 
 from .maneuvers import ROUNDING, Corner, Maneuver
+from .rotor_speed import Clock
 
 MOST_CORNERS = 2
 """Corners within a coupling step at which the solver still stops one by one."""
@@ -25,11 +26,11 @@ PIECES = 2
 """Straight pieces of a coupling step that holds more."""
 
 
-def thinned(maneuver: Maneuver, delta_t: float, n_steps: int) -> Maneuver:
-    """The manoeuvre as it is flown in `n_steps` coupling steps of `delta_t` [s]; `adapted` says so where that changed it."""
+def thinned(maneuver: Maneuver, clock: Clock, n_steps: int) -> Maneuver:
+    """The manoeuvre as it is flown in `n_steps` coupling steps of `clock`; `adapted` says so where that changed it."""
     corners = np.array(maneuver.corners())
     # corners at the edge of a step belong to neither side: the solver stops there anyway
-    edges = np.arange(n_steps + 1) * delta_t
+    edges = clock.time(np.arange(n_steps + 1))
     inside = np.searchsorted(corners, edges[1:] - ROUNDING) - np.searchsorted(
         corners, edges[:-1] + ROUNDING, side="right"
     )
@@ -38,10 +39,11 @@ def thinned(maneuver: Maneuver, delta_t: float, n_steps: int) -> Maneuver:
         return maneuver
     # runs of dense steps, one after the other
     runs = np.split(dense, np.flatnonzero(np.diff(dense) > 1) + 1)
-    stops = [(run[0] + np.arange(PIECES * len(run) + 1) / PIECES) * delta_t for run in runs]
+    stops = [clock.time(run[0] + np.arange(PIECES * len(run) + 1) / PIECES) for run in runs]
     corners_of = tuple((stick, _replaced(history, stops)) for stick, history in maneuver.corners_of)
+    length = 1e3 * edges[-1] / n_steps
     text = (
-        f"{maneuver.name}: up to {inside.max()} corners in a step of {1e3 * delta_t:.3g} ms; {dense.size} steps are flown by "
+        f"{maneuver.name}: up to {inside.max()} corners in a step of {length:.3g} ms; {dense.size} steps are flown by "
         f"{PIECES} straight pieces each, nearest to the history in the mean square"
     )
     return replace(maneuver, corners_of=corners_of, adapted=(*maneuver.adapted, text))

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 import re
+from numbers import Integral, Real
 from typing import Any
 
 from .errors import InputError
@@ -89,6 +90,28 @@ def convert(value: float, unit: str, si_unit: str) -> float:
         return float(_registry().Quantity(value, unit).to(si_unit.replace(" ", "*")).magnitude)
     except Exception as reason:  # pint raises many kinds, tokenizer errors among them
         raise ValueError(f"unit '{unit}' is unknown or not a unit of {si_unit}") from reason
+
+
+def number(field: str, value: Any, low: float = -math.inf, high: float = math.inf) -> float:
+    """`value` as a float if it is a finite number within low..high, without a unit; an InputError of `field` otherwise."""
+    ranged = math.isfinite(low) and math.isfinite(high)
+    allowed = f"must be a number between {low:g} and {high:g}" if ranged else "must be a finite number"
+    if isinstance(value, bool) or not isinstance(value, Real):
+        raise InputError.of(field, value, allowed)
+    try:
+        found = float(value)
+    except OverflowError:
+        found = math.inf
+    if not (math.isfinite(found) and low <= found <= high):
+        raise InputError.of(field, value, allowed)
+    return found
+
+
+def whole(field: str, value: Any, low: int, high: int) -> int:
+    """`value` if it is a whole number within low..high; an InputError of `field` otherwise."""
+    if isinstance(value, bool) or not isinstance(value, Integral) or not low <= value <= high:
+        raise InputError.of(field, value, f"must be a whole number between {low} and {high}")
+    return int(value)
 
 
 def quantity(value: Any, si_unit: str, field: str) -> float:

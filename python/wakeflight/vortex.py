@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """Velocity induced by vortex filaments."""
 
+import json
 from collections.abc import Sequence
 
 import numpy as np
@@ -72,11 +73,11 @@ def induced_velocity(
     if not (isinstance(tolerance, (int, float)) and 0.0 < tolerance < 1.0):
         raise ValueError(f"tolerance = {tolerance!r}: allowed are numbers above 0 and below 1")
 
-    offsets = np.cumsum([0, *(len(filament) for filament in nodes)], dtype=np.int64)
+    n_nodes = np.array([len(filament) for filament in nodes], dtype=np.int64)
     all_nodes = np.concatenate(nodes) if nodes else np.empty((0, 3))
-    return _core.induced_velocity(
-        points, all_nodes, offsets, circulation, core_radius, core, core_distance, method, float(tolerance)
-    )
+    summed = method if method == "direct" else {method: {"tolerance": float(tolerance)}}
+    law = json.dumps({"core": core, "core_distance": core_distance, "method": summed})
+    return _core.induced_velocity(points, all_nodes, n_nodes, (circulation, core_radius), law)
 
 
 def _numbers(name: str, value: ArrayLike) -> NDArray[np.float64]:

@@ -10,7 +10,7 @@ import numpy as np
 
 from . import _core
 from .errors import InputError
-from .units import quantity
+from .units import quantity, whole
 
 
 class Wing(NamedTuple):
@@ -42,8 +42,7 @@ def wing(
     """
     if not span > 0.0 or not np.isfinite(span):
         raise InputError.of("span", span, "must be a number above 0")
-    if isinstance(n, bool) or not isinstance(n, int) or not 2 <= n <= 1000:
-        raise InputError.of("n", n, "must be a whole number between 2 and 1000")
+    n = whole("n", n, 2, 1000)
     if blade_model not in ("weissinger", "lifting-line"):
         raise InputError.of("blade_model", blade_model, "allowed: weissinger, lifting-line")
     edges = -0.5 * span * np.cos(np.pi * np.arange(n + 1) / n)

@@ -29,7 +29,7 @@ def page():
         '`wf.TimeMarchingWake(turns=6, near_wake_angle="45 deg")`; on the command line `--wake turns=6 --wake',
         '"near_wake_angle=45 deg"`. R: rotor radius, c: reference chord, Ω: rotor speed. Angles are text with a unit.',
         "",
-        "A default in three numbers depends on the regime of the rotor: "
+        "A default in four depends on the regime of the rotor: "
         + ", ".join(f"*{words}*" for words in REGIMES.values())
         + ".",
         "An option left at `None` is left open, or to the regime; one that was given is never replaced.",
@@ -54,7 +54,8 @@ def page():
         for option in options:
             unit = {"rad": "angle", "": "–"}.get(option.unit, option.unit)
             if option.by_regime:
-                default = ", ".join(f"{value:g}" for value in option.by_regime.values())
+                default = ", ".join(f"{value}" for value in option.by_regime.values())
+                default += "" if option.lattice is None else f"; {option.lattice} with full-span trailers"
             else:
                 default = option.default_in_words
             allowed = "<br>".join(f"`{word}`: {meaning}" for word, meaning in option.words.items()) or option.allowed

@@ -32,11 +32,12 @@ RUST_ORDER = (
 
 # each module may import itself and the rows before its own; a new module needs its place here
 PYTHON_ORDER = (
-    {"_core", "errors", "results", "regime", "views"},
+    {"_core"},
+    {"errors", "results", "regime", "views"},
     {"units", "references", "vortex", "progress", "limits", "text"},
     {"options"},
     {"presets"},
-    {"condition", "inflow", "maneuvers", "wing", "monitors", "snapshot"},
+    {"condition", "inflow", "maneuvers", "wing", "monitors", "snapshot", "rotor_speed"},
     {"aircraft", "thinning"},
     {"model", "modes", "airfoil_loop"},
     {"integrators", "exchange"},

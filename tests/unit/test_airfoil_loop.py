@@ -83,7 +83,7 @@ def test_a_deck_is_a_section(tmp_path):
         ({"k": 0.0}, "k = 0: must lie between 0.0001 and 10"),
         ({"k": float("nan")}, "k = nan: must be a finite number"),
         ({"mach": 2.0}, "mach = 2: must lie between 0.001 and 1"),
-        ({"steps": 3}, "steps = 3: must lie between 36"),
+        ({"steps": 3}, "steps = 3: must be a whole number between 36"),
         ({"steps": 100.5}, "steps = 100.5: must be a whole number"),
         ({"station": 1.5}, "station = 1.5: must be a number between 0 and 1"),
         ({"pitch_axis": 9.0}, "pitch_axis = 9: must lie between"),

@@ -29,7 +29,7 @@ def calls(start):
     atol = np.full(n, 1e-6)
     return {
         "residual": (core.residual, (0.0, y, still, inputs, out)),
-        "jacobian": (core.jacobian, (0.0, y, still, inputs, 1.0, 1.0, matrix)),
+        "jacobian": (core.jacobian, (0.0, y, still, inputs, (1.0, 1.0), matrix)),
         "consistent_rate": (core.consistent_rate, (0.0, y, inputs)),
         "outputs": (core.outputs, (0.0, y, still, inputs)),
         "hub": (core.hub, (y,)),
@@ -42,8 +42,8 @@ def calls(start):
         "trim_motion": (core.trim_motion, (problem, x, 36)),
         "followed_incidence": (core.followed_incidence, (0.0, y, 0.1, 0.01)),
         "fixed": (_core.FixedStep, (core, 0.0, y, 1e-5, atol, 0.3)),
-        "linearised": (linear.renew, (core, 0.0, y, still, inputs)),
-        "masses": (linear.renew_mass, (core, 0.0, y, inputs)),
+        "linearised": (linear.renew, (core, (0.0, y), still, inputs, True)),
+        "masses": (linear.renew, (core, (0.0, y), still, inputs, False)),
         "consistent": (linear.consistent, (core, (0.0, y), still, inputs, True)),
         "matrix": (linear.matrix, (1.0, matrix)),
     }

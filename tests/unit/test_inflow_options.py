@@ -10,6 +10,7 @@ import pydoc
 import numpy as np
 import pytest
 
+from wakeflight import _core
 from wakeflight.aircraft import load_aircraft
 from wakeflight.condition import FlightCondition
 from wakeflight.errors import InputError
@@ -34,9 +35,17 @@ def test_the_defaults_are_those_of_the_coupled_flight():
     assert wake["azimuth_step"] == pytest.approx(math.pi / 18)
     assert wake["near_wake_angle"] == pytest.approx(math.pi / 6)
     assert options["rotor"]["chord"] == pytest.approx(0.527304)
-    expected = {"turns": 4.0, "form": "displacement", "core_radius": 0.02, "core_growth": 3e-4, "bound_core": 0.25}
+    expected = {
+        "trailers": "full-span",
+        "n_trailers": 3,
+        "turns": 2,
+        "form": "displacement",
+        "core_radius": 0.02,
+        "core_growth": 3e-4,
+        "bound_core": 0.25,
+    }
     expected |= {"tip_strength": "equivalent", "inboard_wake": "none", "near_wake_segments": 6, "n_stations": 20}
-    expected |= {"station_core_floor": 0.25, "far_wake_turns": 0, "sheet_factor": 1.0}
+    expected |= {"station_core_floor": 0.25, "far_wake_turns": 2, "sheet_factor": 1.0}
     assert {key: wake[key] for key in expected} == expected
     assert (marching["scheme"], marching["predictor"]) == ("bdf2", "same")
     relaxed = RelaxationWake().resolved("forward").core_options(load_aircraft("uh60a"))
@@ -202,18 +211,12 @@ def test_options_that_do_not_go_together_are_refused_when_the_model_is_made():
 def test_another_rotors_options_are_refused(uh60a):
     model = Model.build(uh60a, FlightCondition().completed(uh60a), RelaxationWake())
     options = json.loads(model.wake_options)
-    far = np.zeros((1, 20))
-    motion = np.zeros((1, len(model.rotor["frequencies"])))
+    n, modes = model.steps_per_revolution, len(model.rotor["frequencies"])
+    y = np.zeros(len(model.core.state_names()))
 
     def solve():
-        return model.core.solve_circulation(
-            json.dumps(options),
-            np.zeros(len(model.core.state_names())),
-            (np.full(4, 0.1), np.zeros(4)),
-            np.zeros(1),
-            (motion, motion),
-            (far, far),
-        )
+        wake = _core.SteadyWake(model.core, json.dumps(options), False, np.full((n, 20), 0.02))
+        wake.converge(model.core, y, np.full(4, 0.1), (np.zeros((n, modes)), np.zeros((n, modes))), 1)
 
     for name, value in (("radius", 7.0), ("n_blades", 5), ("hinge_offset", 0.1), ("omega", 30.0), ("root_cutout", 1.0)):
         kept, options["rotor"][name] = options["rotor"][name], value
@@ -233,9 +236,9 @@ def test_the_standard_preset_is_the_default_and_options_replace_those_of_a_prese
 def test_presets_are_what_they_say():
     reference = TimeMarchingWake.preset("reference")
     assert (reference.trailers, reference.n_trailers, reference.turns) == ("full-span", 10, 10)
-    # the manoeuvres of the paper are flown with the defaults (docs/paper.md), whose numbers the preset pins
-    paper = TimeMarchingWake.preset("paper").resolved("forward").core_options(load_aircraft("uh60a"))
-    assert paper == TimeMarchingWake().resolved("forward").core_options(load_aircraft("uh60a"))
+    # the manoeuvres of the paper are flown with a lone tip vortex (docs/paper.md)
+    paper = TimeMarchingWake.preset("paper").resolved("forward").core_options(load_aircraft("uh60a"))["wake"]
+    assert (paper["trailers"], paper["turns"], paper["far_wake_turns"]) == ("tip", 4, 0)
     assert RelaxationWake.preset("paper").max_loops_response == 10
 
 

@@ -154,7 +154,7 @@ def test_an_unknown_name_lists_the_known_ones():
         ({"corners_of": (("pedal", ((0.0, 0.1), (1.0, 0.2))),), "seconds": 2.0}, "trim"),
         ({"corners_of": (("pedal", ((-1.0, 0.0), (1.0, 0.2))),), "seconds": 2.0}, "0 s or later"),
         ({"corners_of": (("pedal", ((0.0, 0.0), (0.0, 0.2))),), "seconds": 2.0}, "ascend"),
-        ({"corners_of": (("pedal", ((0.0, 0.0), (1.0, "0.2"))),), "seconds": 2.0}, "must be a number"),
+        ({"corners_of": (("pedal", ((0.0, 0.0), (1.0, "0.2"))),), "seconds": 2.0}, "must be a finite number"),
         ({"corners_of": (("pedal", ((0.0, 0.0), (1.0, 1e400))),), "seconds": 2.0}, "finite"),
         ({"corners_of": (("pedal", (0.0, 0.0, 1.0, 0.2)),), "seconds": 2.0}, "pairs of numbers"),
         ({"corners_of": (("pedal", ((0.0, 0.0), (1.0, 10**400))),), "seconds": 2.0}, "finite"),

@@ -20,8 +20,14 @@ def left_to_the_regime(model):
     return {name: getattr(model, name) for name in options.BY_REGIME if hasattr(model, name)}
 
 
-def numbers(kind, name):
-    return {option: options.BY_REGIME[option][name] for option in left_to_the_regime(kind())}
+LATTICE = {option.name: option.lattice for option in options.DECLARED if option.lattice is not None}
+
+
+def numbers(kind, name, trailers=None):
+    """What the regime gives to options left open, trailers being those of the regime or the ones named."""
+    found = {option: options.BY_REGIME[option][name] for option in left_to_the_regime(kind())}
+    found["trailers"] = trailers or found["trailers"]
+    return found | (LATTICE if found["trailers"] == "full-span" else {})
 
 
 @pytest.mark.parametrize(
@@ -31,9 +37,12 @@ def numbers(kind, name):
         (5.9, 0.0, "hover"),
         (5.9, 20.0, "hover"),
         (5.9, -0.1, "descent"),
-        (6.0, 0.0, "forward"),
-        (6.0, -20.0, "forward"),
-        (-6.0, 0.0, "forward"),
+        (6.0, 0.0, "slow"),
+        (6.0, -20.0, "slow"),
+        (-6.0, 0.0, "slow"),
+        (16.9, 0.0, "slow"),
+        (17.0, 0.0, "forward"),
+        (-17.0, -20.0, "forward"),
     ],
 )
 def test_regime_follows_from_the_advance_ratio_and_from_which_side_the_air_comes(in_plane, climb, name):
@@ -46,19 +55,37 @@ def test_only_what_was_not_given_is_left_to_the_regime(kind, name):
     assert left_to_the_regime(kind().resolved(name)) == numbers(kind, name)
     # the report's case: other options given, hover's turns and far wake all the same
     mixed = kind(tip_strength="max", inboard_wake="sheet").resolved(name)
-    assert left_to_the_regime(mixed) == numbers(kind, name)
+    assert left_to_the_regime(mixed) == numbers(kind, name, "tip")
     given = kind(turns=3.0, far_wake_turns=1, sheet_factor=1.1).resolved(name)
     assert (given.turns, given.far_wake_turns, given.sheet_factor) == (3.0, 1, 1.1)
 
 
-@pytest.mark.parametrize("given", [{"far_wake": "cylinder"}, {"trailers": "full-span"}])
-def test_turns_are_not_repeated_where_a_cylinder_closes_the_wake_or_free_sheets_end_it(given):
-    closed = wf.RelaxationWake(**given).resolved("hover")
-    assert (closed.turns, closed.far_wake_turns) == (5.0, 0)
+def test_turns_are_not_repeated_where_a_cylinder_closes_the_wake_or_less_than_two_are_free():
+    closed = wf.RelaxationWake(far_wake="cylinder").resolved("hover")
+    assert (closed.trailers, closed.turns, closed.far_wake_turns) == ("tip", 5, 0)
+    for name, trailers in (("forward", "full-span"), ("slow", "tip"), ("hover", "tip")):
+        short = wf.RelaxationWake(turns=1.5).resolved(name)
+        assert (short.trailers, short.turns, short.far_wake_turns) == (trailers, 1.5, 0)
 
 
-def test_turns_that_were_given_are_repeated_behind_free_sheets_and_refused_before_a_cylinder():
-    assert wf.RelaxationWake(trailers="full-span", far_wake_turns=2).resolved("hover").far_wake_turns == 2
+@pytest.mark.parametrize(
+    "given",
+    [
+        {"tip_strength": "mean"},
+        {"inboard_wake": "sheet"},
+        {"far_wake": "cylinder"},
+        {"release_radius": 0.98},
+        {"sheet_factor": 1.2},
+    ],
+)
+def test_an_option_of_a_lone_tip_vortex_asks_for_one(given):
+    assert wf.RelaxationWake().resolved("forward").trailers == "full-span"
+    assert wf.RelaxationWake(**given).resolved("forward").trailers == "tip"
+    assert wf.RelaxationWake(trailers="full-span").resolved("descent").trailers == "full-span"
+
+
+def test_turns_that_were_given_are_repeated_and_refused_before_a_cylinder():
+    assert wf.RelaxationWake(trailers="full-span", far_wake_turns=1).resolved("hover").far_wake_turns == 1
     with pytest.raises(wf.InputError, match="far_wake = 'cylinder': for tip vortices"):
         wf.RelaxationWake(far_wake="cylinder", far_wake_turns=2)
 
@@ -76,7 +103,8 @@ def test_an_option_left_open_is_no_number_for_the_core(uh60a):
         ("10 m/s", "90 deg", "hover", {"climb": "10 m/s"}),
         ("10 m/s", "-90 deg", "descent", {"climb": "-10 m/s"}),
         ("10 kt", "0 deg", "hover", {"speed": "10 kt"}),
-        ("20 kt", "0 deg", "forward", {"speed": "20 kt"}),
+        ("20 kt", "0 deg", "slow", {"speed": "20 kt"}),
+        ("40 kt", "0 deg", "forward", {"speed": "40 kt"}),
         ("80 kt", "-6 deg", "forward", {"speed": "80 kt", "shaft_angle": "6 deg"}),
     ],
 )
@@ -116,7 +144,8 @@ def test_a_flight_marches_the_wake_its_trim_relaxed(uh60a, speed, given):
 
 
 def test_help_names_the_numbers_of_every_regime():
-    assert options.described("turns") == "by regime: 4 forward, 5 hover and climb, 8 axial descent"
+    told = "by regime: 4 forward, 4 low speed, 5 hover and climb, 8 axial descent; 2 with full-span trailers"
+    assert options.described("turns") == told
     shown = CliRunner().invoke(cli.app, ["trim", "--help"], env={"COLUMNS": "300"}).output
     assert options.described("turns") in " ".join(shown.split())
     # the help of the options, which documentation shows, names the numbers of the table

@@ -112,7 +112,8 @@ def test_wrong_shapes_and_numbers_are_refused_by_the_exchange(baseline_relaxatio
     for bad, named in (
         ({"y": y[:5]}, "y has 5 numbers"),
         ({"y": np.full(y.size, np.nan)}, "y is not finite"),
-        ({"stick": np.zeros(3)}, "stick_rate has 4 numbers, 3 needed"),
+        ({"stick": np.zeros(3)}, "stick has 3 numbers, 4 needed"),
+        ({"stick_rate": np.zeros(3)}, "stick_rate has 3 numbers, 4 needed"),
         ({"stick": np.full(4, np.inf)}, "stick is not finite"),
         ({"motion": motion}, "q has the shape"),
     ):

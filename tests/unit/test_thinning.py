@@ -7,9 +7,11 @@ import pytest
 import wakeflight as wf
 from wakeflight import flight
 from wakeflight.maneuvers import arrested_descent, roll_reversal
+from wakeflight.rotor_speed import SteadyClock
 from wakeflight.thinning import PIECES, nearest, thinned
 
 STEP = 2 * np.pi / 27 / 36
+CLOCK = SteadyClock(STEP)
 
 
 def recorded(rate, seconds, noise, seed=1):
@@ -23,7 +25,7 @@ def recorded(rate, seconds, noise, seed=1):
 
 def test_a_history_with_few_corners_is_flown_corner_by_corner():
     for maneuver in (arrested_descent(), roll_reversal(), recorded(100.0, 2.0, 0.01)):
-        assert thinned(maneuver, STEP, 400) is maneuver
+        assert thinned(maneuver, CLOCK, 400) is maneuver
 
 
 def test_the_nearest_straight_pieces_differ_by_nothing_about_any_stop():
@@ -44,7 +46,7 @@ def test_the_nearest_straight_pieces_differ_by_nothing_about_any_stop():
 def test_stops_of_a_dense_history_are_bounded_and_said():
     maneuver = recorded(1000.0, 2.0, 0.01)
     n_steps = round(2.0 / STEP)
-    thin = thinned(maneuver, STEP, n_steps)
+    thin = thinned(maneuver, CLOCK, n_steps)
     # every stop and the two ends
     assert len(thin.corners()) <= PIECES * n_steps + 1 + sum(t > n_steps * STEP for t in maneuver.corners())
     assert "straight pieces" in thin.adapted[-1]
@@ -58,7 +60,7 @@ def test_a_single_dense_step_is_flown_by_its_own_pieces():
     # three corners within one step of 6.5 ms, none beside it: one stop between the step's two ends
     corners = ((0.0971, 0.0), (0.0985, 0.1), (0.1, -0.05), (0.1015, 0.0))
     maneuver = wf.Maneuver("tremor", (("lateral", corners),), seconds=1.0)
-    thin = thinned(maneuver, STEP, 100)
+    thin = thinned(maneuver, CLOCK, 100)
     (_, flown), *_ = thin.corners_of
     inside = [t for t, _ in flown if 15 * STEP < t < 16 * STEP]
     assert inside == pytest.approx([15.5 * STEP])
@@ -72,9 +74,9 @@ def test_the_pieces_go_no_further_than_the_stick_did():
     # up to the stop within a sample: the nearest pieces alone would overshoot by a tenth of the jump
     times = np.arange(0.0, 1.0, 1e-3)
     corners = tuple((float(t), 5.0 if t > 0.5 else 0.0) for t in times)
-    thin = thinned(wf.Maneuver("slam", (("lateral", corners),), seconds=1.0), STEP, 150)
+    thin = thinned(wf.Maneuver("slam", (("lateral", corners),), seconds=1.0), CLOCK, 150)
     noisy = tuple((t, x + (1e-3 * (-1) ** i if t > 0.0 and x == 0.0 else 0.0)) for i, (t, x) in enumerate(corners))
-    dense = thinned(wf.Maneuver("slam", (("lateral", noisy),), seconds=1.0), STEP, 150)
+    dense = thinned(wf.Maneuver("slam", (("lateral", noisy),), seconds=1.0), CLOCK, 150)
     assert dense.adapted and thin is not dense
     for flown in (thin, dense):
         inches = [x for _, x in flown.corners_of[0][1]]

@@ -19,8 +19,8 @@ def multipliers(start):
         y, y_dot = core.trim_state(start.problem, start.x, t)
         inputs = start.inputs(0.0)
         stiffness, mass = zero.copy(), zero.copy()
-        core.jacobian(t, y, y_dot, inputs, 1.0, 0.0, stiffness)
-        core.jacobian(t, y, y_dot, inputs, 0.0, 1.0, mass)
+        core.jacobian(t, y, y_dot, inputs, (1.0, 0.0), stiffness)
+        core.jacobian(t, y, y_dot, inputs, (0.0, 1.0), mass)
         block = np.ix_(own, own)
         return -np.linalg.solve(mass[block], stiffness[block])
 

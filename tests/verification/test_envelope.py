@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 import wakeflight as wf
-from wakeflight import _core
 
 KNOT = 0.514444
 
@@ -67,14 +66,3 @@ def test_the_airframe_feels_the_disk_not_the_blades_azimuths():
     steps = start.model.steps_per_revolution // start.model.n_blades
     swing = np.ptp(data.inflow_mean.values[: steps + 1])
     assert swing < 0.01 * float(data.inflow_mean.mean())
-
-
-def test_the_sheet_is_carried_by_the_thrust_of_the_moment():
-    # momentum theory: the inflow of twice the circulation is that of twice the thrust
-    start = level(80, inflow=wf.RelaxationWake(inboard_wake="sheet"))
-    model, wake = start.model, start.wake
-    hub_velocity, _ = model.core.hub(start.state())
-    once, twice = (_core.carrying_inflow(model.core, k * wake.circulation, hub_velocity) for k in (1.0, 2.0))
-    mu = np.hypot(*hub_velocity[:2]) / model.tip_speed
-    assert once == pytest.approx(start.mean_outputs()["ct"] / (2 * mu), rel=0.03)
-    assert twice == pytest.approx(2 * once, rel=0.05)

@@ -86,10 +86,10 @@ def test_the_rate_it_finds_satisfies_the_equations(baseline_dynamic):
         assert np.max(np.abs(f)) < 1e-8
 
 
-def test_a_coupling_step_agrees_with_an_explicit_solver_of_high_order(baseline_relaxation):
+def test_a_coupling_step_agrees_with_an_explicit_solver_of_high_order(baseline_paper):
     from scipy.integrate import solve_ivp
 
-    start = baseline_relaxation
+    start = baseline_paper
     model = start.model
     sticks = Sticks(wf.arrested_descent(), start.stick_si)
     t0, t1 = 0.6, 0.6 + np.radians(10) / model.omega
@@ -106,7 +106,8 @@ def test_a_coupling_step_agrees_with_an_explicit_solver_of_high_order(baseline_r
         solver.start(t0, y0, np.zeros_like(y0))
         solver.advance_to(t1, inputs)
         errors.append(np.sqrt(np.mean(((solver.state - reference) / scale) ** 2)))
-    # kinks of the section tables inside the step take the order away; the error is still of the size of IDA's tolerance
+    # kinks of the section tables inside the step take the order away; the error is still of the size of IDA's tolerance (in
+    # the inflow of the standard wake 4.0 of its scale: other kinks are met)
     assert errors[0] < 3.0
     assert errors[1] < errors[0]
 

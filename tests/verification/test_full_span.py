@@ -18,6 +18,7 @@ OPTIONS = {
     "turns": 1.0,
     "near_wake_angle": "30 deg",
     "trailer_core": 0.05,
+    "core_radius": 0.05,
     "inflow_tolerance": 1e-3,
 }
 MARCHING = {name: value for name, value in OPTIONS.items() if name != "inflow_tolerance"}
@@ -65,9 +66,10 @@ def test_the_same_bits_for_one_thread_and_for_two():
         "from wakeflight import _core\n"
         "o = dict(rotor=dict(n_blades=2, radius=8.0, root_cutout=1.0, hinge_offset=0.4, chord=0.5, omega=27.0),\n"
         "         wake=dict(n_stations=16, trailers='full-span', azimuth_step=np.pi / 18, turns=1.0), relaxation={})\n"
-        "w = _core.RelaxationWake(json.dumps(o), [-40.0, 0, 0], [0.0] * 3, 0.02)\n"
+        "h = [-40.0, 0, 0], [0.0] * 3\n"
+        "w = _core.RelaxationWake(json.dumps(o), h, 0.02)\n"
         "g = 10 + np.sin(np.arange(36 * 16.0)).reshape(36, 16)\n"
-        "w.set_state([-40.0, 0, 0], [0.0] * 3, np.zeros(36), np.zeros(36), g)\n"
+        "w.set_state(h, np.zeros((36, 2)), g)\n"
         "w.sweep(1)\n"
         "print(hashlib.sha256(w.lattice().tobytes() + w.inflow_far().tobytes()).hexdigest())\n"
     )

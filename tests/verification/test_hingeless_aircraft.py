@@ -38,8 +38,8 @@ def test_every_mode_of_a_clamped_blade_has_its_structural_damping(bo105):
     y[6] = 1.0
     inputs = _core.Inputs([0.0] * 4, [0.0] * 4, 0.0, None, 0.0, 0.0, vacuum=True)
     n, jacobian, mass = y.size, np.empty((y.size, y.size)), np.empty((y.size, y.size))
-    model.core.jacobian(0.0, y, np.zeros(n), inputs, 1.0, 0.0, jacobian)
-    model.core.jacobian(0.0, y, np.zeros(n), inputs, 0.0, 1.0, mass)
+    model.core.jacobian(0.0, y, np.zeros(n), inputs, (1.0, 0.0), jacobian)
+    model.core.jacobian(0.0, y, np.zeros(n), inputs, (0.0, 1.0), mass)
     kept = [i for part in ("modal", "modal_rate") for i in range(*model.layout[part][0])]
     block = np.ix_(kept, kept)
     roots = eig(jacobian[block], -mass[block], right=False)

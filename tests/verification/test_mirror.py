@@ -19,7 +19,7 @@ def mirrored(name, values):
     """Values of a variable seen in the mirror; vectors along the last axis."""
     if name in ODD:
         return -values
-    if name in ("hub_force", "wake"):
+    if name in ("hub_force", "wake", "wake_sheet"):
         return values * np.array([1.0, -1.0, 1.0])
     if name == "hub_moment":
         return values * np.array([-1.0, 1.0, -1.0])

@@ -38,7 +38,7 @@ def test_the_explicit_step_has_order_five(rigid):
     inputs = _core.Inputs(rigid.stick_si, np.zeros(4), 0.0, None, 0.0, 0.0, vacuum=True)
 
     def flown(n_steps):
-        solver = _core.ExplicitStep(core, 0.0, y, 1e-5, atol)
+        solver = _core.FixedStep.explicit(core, 0.0, y, 1e-5, atol)
         solver.advance(core, 0.5 * np.pi / model.omega, inputs, n_steps)
         assert solver.counters()[5] == 0
         return solver.state()
@@ -96,3 +96,15 @@ def test_a_state_that_cannot_be_flown_is_named(rigid):
         ArithmeticError, match=r"fixed explicit step stopped at t = 0\.0000 s, .* worst in rotor.main.blade_0"
     ):
         FixedIntegrator(rigid.model).consistent(0.0, y, rigid.inputs())
+
+
+def test_steps_do_not_go_on_from_the_memory_of_another_method(rigid):
+    core, y = rigid.model.core, rigid.state()
+    given = (core, 0.0, y, 1e-5, np.full(y.size, 1e-6))
+    explicit, implicit = _core.FixedStep.explicit(*given), _core.FixedStep(*given, 0.3)
+    for one, other in ((explicit, implicit), (implicit, explicit)):
+        one.recall(core, one.memory())
+        with pytest.raises(ValueError, match="memory of another method"):
+            one.recall(core, other.memory())
+        with pytest.raises(ValueError, match="cannot be read"):
+            one.recall(core, b"nothing")

@@ -39,7 +39,7 @@ def simulation(start, inflow, integrator, **more):
 def sticks_of(sim, name):
     start = sim.start
     maneuver = MANEUVERS[name]().for_aircraft(start.aircraft.stick_travel_in, sim.model.omega)
-    return Sticks(thinned(maneuver, sim.delta_t, 10_000), start.stick_si)
+    return Sticks(thinned(maneuver, sim.clock, 10_000), start.stick_si)
 
 
 def flown(sim, sticks, n):

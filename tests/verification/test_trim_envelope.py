@@ -178,7 +178,7 @@ def test_other_starts_lead_to_the_same_trim():
 
 def test_wakes_that_circle_or_vary_are_trimmed_on_their_mean_and_say_so():
     # rearward flight at the speeds where the wake rolls up beside the rotor; balances are met on the mean
-    coarse = {"azimuth_step": "15 deg", "turns": 3}
+    coarse = {"trailers": "tip", "azimuth_step": "15 deg", "turns": 3}
     for wake, speed, words in (
         (wf.TimeMarchingWake(**coarse), "20 kt", "varies from turn to turn"),
         (wf.RelaxationWake(**coarse), "35 kt", "circles about its answer"),

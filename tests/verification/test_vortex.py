@@ -297,6 +297,42 @@ def test_a_wrong_number_of_threads_is_named():
     assert "WAKEFLIGHT_THREADS = many: allowed are whole numbers from 1" in run.stderr
 
 
+def run_with_instructions(name):
+    environment = os.environ | {"WAKEFLIGHT_SIMD": name}
+    return subprocess.run([sys.executable, "-c", SETS], env=environment, capture_output=True, text=True)
+
+
+SETS = """
+import numpy as np, wakeflight as wf
+nodes = np.cumsum(np.random.default_rng(1).normal(size=(400, 3)), axis=0)
+points = np.random.default_rng(2).normal(size=(100, 3))
+v = wf.induced_velocity(points, [nodes], np.ones(399), np.full(399, 0.1))
+print(wf._core.instruction_set(), *v.ravel())
+"""
+
+
+def test_every_instruction_set_gives_the_same_velocity():
+    # a machine that lacks one says so
+    scalar = run_with_instructions("scalar").stdout.split()
+    assert scalar[0] == "scalar"
+    reference = np.array(scalar[1:], dtype=float)
+    for name in ("avx2", "avx512"):
+        run = run_with_instructions(name)
+        if run.returncode != 0:
+            assert f"WAKEFLIGHT_SIMD = {name}: " in run.stderr
+            continue
+        found = run.stdout.split()
+        assert found[0] == name
+        assert np.abs(np.array(found[1:], dtype=float) - reference).max() < 1e-13 * np.abs(reference).max()
+
+
+def test_an_instruction_set_that_does_not_exist_is_named():
+    run = run_with_instructions("mmx")
+    assert run.returncode != 0
+    last = run.stderr.strip().splitlines()[-1]
+    assert last.startswith("ValueError: WAKEFLIGHT_SIMD = mmx: no such instruction set, allowed are scalar")
+
+
 FORKING = """
 import os, numpy as np, wakeflight as wf
 from wakeflight import _core

@@ -73,7 +73,7 @@ class Cantilever:
         for _ in range(60):
             y[a:b] = q
             core.residual(0.0, y, np.zeros(n), inputs, f)
-            core.jacobian(0.0, y, np.zeros(n), inputs, 1.0, 0.0, matrix)
+            core.jacobian(0.0, y, np.zeros(n), inputs, (1.0, 0.0), matrix)
             step = np.linalg.solve(matrix[c:d, a:b], -f[c:d])
             # slopes beyond a right angle are not in the model: stay well inside
             share = min(1.0, 0.05 / max(abs(step @ self.shapes[1.0]["dw"][0]), 1e-300))

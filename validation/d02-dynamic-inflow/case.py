@@ -1,5 +1,7 @@
 """Static gains and eigenvalues of the dynamic inflow model."""
 
+import json
+
 import numpy as np
 
 from wakeflight import _core
@@ -11,7 +13,7 @@ MASS = np.diag([128 / (75 * np.pi), 16 / (45 * np.pi), 16 / (45 * np.pi)])
 
 def rate(state, ct, mu, mu_z, **choices):
     """Rates per radian of rotor azimuth."""
-    return np.array(_core.pitt_peters_rate(state, [ct, 0.0, 0.0, mu, 0.0, mu_z], 1.0, **choices))
+    return np.array(_core.pitt_peters_rate(state, [ct, 0.0, 0.0, mu, 0.0, mu_z], 1.0, json.dumps(choices)))
 
 
 def matrix(state, ct, mu, mu_z, step=1e-3, **choices):

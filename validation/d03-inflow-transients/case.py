@@ -1,5 +1,7 @@
 """Steps and ramps in hover."""
 
+import json
+
 import numpy as np
 from scipy.integrate import solve_ivp
 
@@ -11,8 +13,8 @@ OMEGA, SIGMA_A, LOCK = 22.0, 0.0636 * 5.73, 8.0
 
 
 def inflow_rate(state, ct, omega, apparent):
-    choices = {"apparent_mass": apparent, "mass_flow": "state"}
-    return _core.pitt_peters_rate(state, [ct, 0.0, 0.0, 0.0, 0.0, 0.0], omega, **choices)
+    choices = json.dumps({"apparent_mass": apparent, "mass_flow": "state"})
+    return _core.pitt_peters_rate(state, [ct, 0.0, 0.0, 0.0, 0.0, 0.0], omega, choices)
 
 
 def thrust(theta, lam, beta_dot):

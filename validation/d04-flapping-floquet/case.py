@@ -67,7 +67,7 @@ class FlapEquation:
         self.core.residual(psi, y, np.zeros(n), inputs, f)
         if self.mass is None:
             matrix = np.empty((n, n))
-            self.core.jacobian(psi, y, np.zeros(n), inputs, 0.0, 1.0, matrix)
+            self.core.jacobian(psi, y, np.zeros(n), inputs, (0.0, 1.0), matrix)
             # the hub is held: of the residual's matrix only the mode's own entry counts
             self.mass = matrix[v[0], v[0]]
         return (-f[v] / self.mass * self.per_coordinate)[:, None]

@@ -13,8 +13,8 @@ RTOL = 1e-6
 class Derivatives:
     """dF/dy and dF/dy' of a test problem where they were last asked for."""
 
-    def renew(self, core, t, y, y_dot, inputs):
-        self.by_y, self.by_rate = (np.asarray(part, float) for part in core.j(t, y, y_dot))
+    def renew(self, core, at, y_dot, inputs, whole):
+        self.by_y, self.by_rate = (np.asarray(part, float) for part in core.j(*at, y_dot))
 
     def matrix(self, c_j, out):
         out[:] = self.by_y + c_j * self.by_rate

@@ -50,11 +50,11 @@ def wing(ratio, n):
     at_rest = ([0.0, 0.0, 0.0], [0.0, 0.0, 0.0])
     text = json.dumps(options)
     tip_speed = rotor["omega"] * rotor["radius"]
-    matrix = _core.near_wake_matrix(text, *at_rest, 0.0, 0.0, 0.0) * tip_speed
-    grid = _core.RelaxationWake(text, *at_rest, 0.0)
+    matrix, edges, stations = _core.near_wake_matrix(text, at_rest, (0.0, 0.0, 0.0))
+    matrix *= tip_speed
     # Gamma = c/2 2 pi (U alpha - w): the section's lift-curve slope is 2 pi
     circulation = np.linalg.solve(np.eye(n) + np.pi * matrix, np.full(n, np.pi))
-    return np.array(grid.edges()) - FAR, np.array(grid.stations()) - FAR, circulation, matrix @ circulation
+    return edges - FAR, stations - FAR, circulation, matrix @ circulation
 
 
 def run(case):

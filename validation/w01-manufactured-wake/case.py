@@ -32,7 +32,13 @@ SOLVERS = {
 def options(steps, scheme="bdf2", form="displacement"):
     """Rotor of unit radius and speed whose wake is long enough for the table; relaxed fully in every sweep."""
     wake = wf.TimeMarchingWake(
-        turns=TURNS, azimuth_step=f"{360 / steps} deg", near_wake_angle="0 deg", scheme=scheme, form=form
+        trailers="tip",
+        turns=TURNS,
+        azimuth_step=f"{360 / steps} deg",
+        near_wake_angle="0 deg",
+        scheme=scheme,
+        form=form,
+        evaluation="pece",
     )
     wake = wake.resolved("forward").core_options(AIRCRAFT)
     wake["rotor"] = {"n_blades": 1, "radius": 1.0, "root_cutout": 0.2, "hinge_offset": 0.0, "chord": 0.05, "omega": 1.0}
@@ -46,8 +52,8 @@ def relaxed(form, steps, contraction, descent):
     """Periodic wake of the field V/(Omega R) = (-s x, -s y, -lambda), swept until it rests."""
     s = contraction
     field = ([0.0, 0.0, -descent], [[-s, 0.0, 0.0], [0.0, -s, 0.0], [0.0, 0.0, 0.0]])
-    wake = _core.RelaxationWake(options(steps, form=form), *STILL, 0.0, field)
-    wake.set_state(*STILL, np.zeros(steps), np.zeros(steps), np.zeros((steps, 5)))
+    wake = _core.RelaxationWake(options(steps, form=form), STILL, 0.0, field)
+    wake.set_state(STILL, np.zeros((steps, 2)), np.zeros((steps, 5)))
     change, sweeps = 1.0, 0
     while change > 1e-13:
         change = wake.sweep(5)[-1, 0]
@@ -59,10 +65,10 @@ def relaxed(form, steps, contraction, descent):
 
 def marched(text, steps, start):
     """Tip vortex of the blade at psi = 0, marched for longer than its own length from the periodic one."""
-    wake = _core.TimeMarchingWake.from_relaxation(start, 0, text)
+    wake = _core.TimeMarchingWake(start, 0, text)
     for n in range(1, (TURNS + 1) * steps + 1):
-        wake.step(*STILL, np.array([[2 * np.pi * (n % steps) / steps, 0.0, 0.0]]), np.zeros((1, 5)))
-    return wake.position(), np.zeros(1)
+        wake.step(STILL, np.array([[2 * np.pi * (n % steps) / steps, 0.0, 0.0]]), np.zeros((1, 5)))
+    return wake.lattice()[:, -1], np.zeros(1)
 
 
 def exact(psi, zeta, contraction, descent):
@@ -76,7 +82,7 @@ def errors(name, steps, contraction, descent):
     solver = SOLVERS[name] or {}
     start = relaxed(solver.get("form", "displacement"), steps, contraction, descent)
     if not solver:
-        position, psi = start.position(), 2 * np.pi * np.arange(steps) / steps
+        position, psi = start.lattice()[:, -1], 2 * np.pi * np.arange(steps) / steps
     else:
         position, psi = marched(options(steps, **solver), steps, start)
     zeta = 2 * np.pi / steps * np.arange(position.shape[1])

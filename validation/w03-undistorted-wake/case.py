@@ -24,8 +24,8 @@ def guess(mu, inflow, turns=2):
     wake = {"turns": float(turns), "azimuth_step": 2 * np.pi / STEPS}
     options = {"rotor": rotor, "wake": wake, "relaxation": {}}
     # the hub moves against x, which points aft
-    wake = _core.RelaxationWake(json.dumps(options), [-mu * OMEGA * RADIUS, 0, 0], [0, 0, 0], inflow)
-    return wake.position() / RADIUS
+    wake = _core.RelaxationWake(json.dumps(options), ([-mu * OMEGA * RADIUS, 0, 0], [0, 0, 0]), inflow)
+    return wake.lattice()[:, -1] / RADIUS
 
 
 def run(case):

@@ -30,8 +30,8 @@ def cores(rotor):
         "core_growth": growth,
     }
     options = {"rotor": known, "wake": wake, "relaxation": {}}
-    wake = _core.RelaxationWake(json.dumps(options), [-0.1 * omega * radius, 0, 0], [0, 0, 0], 0.03)
-    squared = wake.core_radius()[0] ** 2
+    wake = _core.RelaxationWake(json.dumps(options), ([-0.1 * omega * radius, 0, 0], [0, 0, 0]), 0.03)
+    squared = wake.core_radius()[0, -1] ** 2
     return np.sqrt(0.5 * (squared[1:] + squared[:-1]))
 
 

@@ -1,18 +1,16 @@
 //! A section by itself, in harmonic motion.
 
-use crate::checks::invalid;
+use crate::checks::{failed, invalid};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
-use pyo3::exceptions::{PyArithmeticError, PyValueError};
 use pyo3::prelude::*;
 use serde::Deserialize;
 use wakeflight::airfoil::span::SpanSections;
 use wakeflight::airfoil::unsteady::{Coefficients, Cycle, CycleError, Model, Motion, Oscillation};
 
-/// Adds this file's functions to the module.
-pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
-    m.add_class::<AirfoilCycle>()?;
-    m.add_function(wrap_pyfunction!(airfoil_cycle, m)?)?;
-    m.add("UNSTEADY_MODELS", Model::ALL.map(|(name, _)| name).to_vec())
+/// Names of the models of a section in time.
+#[pyfunction]
+pub fn unsteady_models() -> Vec<&'static str> {
+    Model::ALL.map(|(name, _)| name).to_vec()
 }
 
 /// What is asked, as Python gives it.
@@ -32,7 +30,7 @@ struct Asked {
 
 /// A cycle that repeats.
 #[pyclass(frozen)]
-struct AirfoilCycle {
+pub struct AirfoilCycle {
     cycle: Cycle,
     model: Model,
 }
@@ -40,7 +38,7 @@ struct AirfoilCycle {
 /// Cycle of a section, as JSON tells it: sections along the span, station [m], model, mean and amplitude [rad], reduced
 /// frequency, Mach number, pitch axis (null: plunge), steps.
 #[pyfunction]
-fn airfoil_cycle(py: Python<'_>, asked_json: &str) -> PyResult<AirfoilCycle> {
+pub fn airfoil_cycle(py: Python<'_>, asked_json: &str) -> PyResult<AirfoilCycle> {
     let asked: Asked = serde_json::from_str(asked_json).map_err(invalid)?;
     let airfoils = asked.sections.at([asked.station]);
     let oscillation = Oscillation {
@@ -53,8 +51,8 @@ fn airfoil_cycle(py: Python<'_>, asked_json: &str) -> PyResult<AirfoilCycle> {
     };
     match py.detach(|| Cycle::of(airfoils.at(0), asked.model, &oscillation)) {
         Ok(cycle) => Ok(AirfoilCycle { cycle, model: asked.model }),
-        Err(error @ CycleError::Value { .. }) => Err(PyValueError::new_err(error.to_string())),
-        Err(error) => Err(PyArithmeticError::new_err(error.to_string())),
+        Err(error @ CycleError::Value { .. }) => Err(invalid(error)),
+        Err(error) => Err(failed(error)),
     }
 }
 

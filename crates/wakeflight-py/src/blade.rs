@@ -1,24 +1,16 @@
 //! Blade modes for Python.
 
-use numpy::{PyArray1, PyArray2};
-use pyo3::exceptions::PyValueError;
+use crate::checks::{Array, Named, array, finite, invalid};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
-use wakeflight::blade::modes::{BladeModes, ShapesAt};
+use wakeflight::blade::modes::{self, ShapesAt};
 use wakeflight::blade::section::BladeProperties;
 
-/// Natural modes of the rotating blade; see `wakeflight::blade::modes::BladeModes`.
-#[pyclass(name = "BladeModes", frozen, module = "wakeflight._core")]
-pub struct PyBladeModes {
-    modes: BladeModes,
-}
-
-fn refused(error: impl std::fmt::Display) -> PyErr {
-    PyValueError::new_err(error.to_string())
-}
+/// Natural modes of the rotating blade, ascending by frequency; see `wakeflight::blade::modes::BladeModes`.
+#[pyclass(frozen, module = "wakeflight._core")]
+pub struct BladeModes(modes::BladeModes);
 
 #[pymethods]
-impl PyBladeModes {
+impl BladeModes {
     /// Modes of the blade described by `properties_json` (SI) at rotor speed [rad/s] and root pitch [rad].
     #[new]
     fn new(
@@ -29,74 +21,27 @@ impl PyBladeModes {
         n_elements: usize,
         n_modes: usize,
     ) -> PyResult<Self> {
-        let properties: BladeProperties = serde_json::from_str(properties_json).map_err(refused)?;
-        let modes = py
-            .detach(|| BladeModes::new(&properties, omega, reference_pitch, n_elements, n_modes))
-            .map_err(refused)?;
-        Ok(Self { modes })
+        let blade: BladeProperties = serde_json::from_str(properties_json).map_err(invalid)?;
+        let found = py.detach(|| modes::BladeModes::new(&blade, omega, reference_pitch, n_elements, n_modes));
+        Ok(Self(found.map_err(invalid)?))
     }
 
-    /// Number of modes.
+    /// Frequencies (n_modes,) [rad/s].
     #[getter]
-    fn n_modes(&self) -> usize {
-        self.modes.n_modes
-    }
-
-    /// Rotor speed [rad/s].
-    #[getter]
-    fn omega(&self) -> f64 {
-        self.modes.omega
-    }
-
-    /// Root pitch of the eigenproblem [rad].
-    #[getter]
-    fn reference_pitch(&self) -> f64 {
-        self.modes.reference_pitch
-    }
-
-    /// Whether no mode kept is mostly torsion.
-    #[getter]
-    fn no_torsion(&self) -> bool {
-        self.modes.no_torsion
-    }
-
-    /// Frequencies (n_modes,) [rad/s], ascending.
-    #[getter]
-    fn frequencies<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        PyArray1::from_slice(py, &self.modes.frequency)
-    }
-
-    /// Frequencies (n_modes,) [1/rev], ascending; refused for a rotor at rest.
-    #[getter]
-    fn frequencies_per_rev<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        let omega = self.modes.omega.abs();
-        if omega == 0.0 {
-            return Err(refused("frequencies_per_rev: omega is 0, read frequencies"));
-        }
-        Ok(PyArray1::from_iter(py, self.modes.frequency.iter().map(|frequency| frequency / omega)))
+    fn frequencies(&self) -> Array {
+        array(&self.0.frequency[..], &[])
     }
 
     /// Shares of kinetic energy (n_modes, 3): flap, lag, torsion.
     #[getter]
-    fn energy_shares<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let rows: Vec<Vec<f64>> = self.modes.shares.iter().map(|s| vec![s.flap, s.lag, s.torsion]).collect();
-        Ok(PyArray2::from_vec2(py, &rows)?)
-    }
-
-    /// Tip deflections of the mass-normalised shapes (n_modes, 3): lead [m], flap [m], twist [rad].
-    #[getter]
-    fn tip_deflections<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let rows: Vec<Vec<f64>> = self.modes.tip.iter().map(|t| vec![t.v, t.w, t.phi]).collect();
-        Ok(PyArray2::from_vec2(py, &rows)?)
+    fn energy_shares(&self) -> Array {
+        let shares: Vec<f64> = self.0.shares.iter().flat_map(|s| [s.flap, s.lag, s.torsion]).collect();
+        array(shares, &[self.0.n_modes])
     }
 
     /// Mass-normalised shapes at stations `x` [m]: v, dv, ddv, w, dw, ddw, phi, dphi, each (n_stations, n_modes).
-    fn shapes<'py>(&self, py: Python<'py>, x: Vec<f64>) -> PyResult<Bound<'py, PyDict>> {
-        if let Some(bad) = x.iter().find(|x| !x.is_finite()) {
-            return Err(refused(format!("x holds {bad}: finite stations [m]")));
-        }
-        let at: Vec<ShapesAt> = x.into_iter().map(|x| self.modes.at(x)).collect();
-        let out = PyDict::new(py);
+    fn shapes(&self, x: Vec<f64>) -> PyResult<Named<Array>> {
+        let at: Vec<ShapesAt> = finite("x", x)?.into_iter().map(|x| self.0.at(x)).collect();
         let columns: [(&str, fn(&ShapesAt) -> &Vec<f64>); 8] = [
             ("v", |s| &s.v),
             ("dv", |s| &s.dv),
@@ -107,15 +52,7 @@ impl PyBladeModes {
             ("phi", |s| &s.phi),
             ("dphi", |s| &s.dphi),
         ];
-        for (name, column) in columns {
-            let rows: Vec<Vec<f64>> = at.iter().map(|s| column(s).clone()).collect();
-            out.set_item(name, PyArray2::from_vec2(py, &rows)?)?;
-        }
-        Ok(out)
+        let all = |of: fn(&ShapesAt) -> &Vec<f64>| at.iter().flat_map(of).copied().collect::<Vec<_>>();
+        Ok(columns.map(|(name, of)| (name, array(all(of), &[at.len()]))).into_iter().collect())
     }
-}
-
-/// Adds this file's classes to the module.
-pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
-    m.add_class::<PyBladeModes>()
 }

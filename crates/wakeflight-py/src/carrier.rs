@@ -1,71 +1,89 @@
-//! What meets the air: rotor, hub motion, blades of a system as the exchange and the circulation take them.
+//! What meets the air: controls, hub motion, blade motion of a system, checked on their way to the exchange.
 
-use crate::checks::{invalid, map, numbers};
-use crate::rotor::motion;
-use crate::system::PySystem;
-use numpy::PyReadonlyArray2;
+use crate::checks::{Motion, Row, Table, invalid, map, numbers, sized};
+use crate::system::{PyInputs, PySystem};
 use pyo3::prelude::*;
-use wakeflight::blade::aerodynamics::Air;
 use wakeflight::blade::hub_motion::HubMotion;
-use wakeflight::blade::kinematics::{ModalMotion, PitchMotion};
-use wakeflight::rotor::circulation::BladeInstant;
-use wakeflight::rotor::exchange::azimuth;
-use wakeflight::rotor::hub::Rotor;
+use wakeflight::blade::kinematics::ModalMotion;
+use wakeflight::rotor::exchange::Place;
+use wakeflight::system::blades::Controls;
+use wakeflight::system::instant::{HeldInflow, Inputs, Instant};
 use wakeflight::trim::host::Host;
 
+impl PyInputs {
+    /// The inputs, which must have an inflow for every rotor of `system`, of its stations.
+    pub fn fitting(&self, system: &PySystem) -> PyResult<&Inputs> {
+        let (found, needed) = (self.0.inflow.len(), system.inner.rotors.len());
+        if found != needed {
+            return Err(invalid(format!("inflow of {found} rotors, {needed} needed")));
+        }
+        for (held, (_, rotor, l)) in self.0.inflow.iter().zip(system.inner.each_rotor()) {
+            let needed = rotor.n_blades * rotor.inflow_width();
+            match held {
+                HeldInflow::Stations { inflow, .. } if inflow.len() != needed => {
+                    return Err(invalid(format!("inflow has {} numbers, {needed} needed", inflow.len())));
+                }
+                HeldInflow::Dynamic if !l.dynamic_inflow => {
+                    return Err(invalid("inflow: needed, there are no inflow states"));
+                }
+                _ => {}
+            }
+        }
+        Ok(&self.0)
+    }
+}
+
 impl PySystem {
-    /// First rotor, and air.
-    pub fn main(&self) -> (&Rotor, Air) {
-        (self.inner.main(), self.inner.air)
+    /// Where F is asked.
+    pub fn at<'a>(
+        &self,
+        t: f64,
+        y: &'a Row,
+        y_dot: &'a Row,
+        inputs: &'a PyInputs,
+    ) -> PyResult<Instant<'a, f64>> {
+        let (y, y_dot) = (self.state("y", y)?, self.state("y_dot", y_dot)?);
+        Ok(Instant { t, y, y_dot, inputs: inputs.fitting(self)? })
+    }
+
+    /// A state, or its rate; whether it is finite is for the solver to say.
+    pub fn state<'a>(&self, name: &str, y: &'a Row) -> PyResult<&'a [f64]> {
+        sized(name, y, self.inner.layout.len())
+    }
+
+    /// Rotor and air, with a motion of the hub.
+    pub fn place<'a>(&'a self, hub: &'a HubMotion<f64>) -> Place<'a> {
+        Place { rotor: self.inner.main(), air: self.inner.air, hub }
     }
 
     /// Motion of the hub at `y`.
-    pub fn hub_at(&self, y: &[f64]) -> PyResult<HubMotion<f64>> {
-        let y = numbers("y", y, self.inner.layout.len())?;
-        Ok(self.inner.hub_motion(0, y, &vec![0.0; y.len()]))
+    pub fn hub_at(&self, y: &Row) -> PyResult<HubMotion<f64>> {
+        Ok(self.inner.steady_hub(numbers("y", y, self.inner.layout.len())?))
     }
 
-    /// Modal motion of blade `b` in `y`.
-    pub fn modal(&self, y: &[f64], b: usize) -> ModalMotion<f64> {
-        self.inner.modal_motion(0, y, &vec![0.0; y.len()], b)
+    /// Controls, of which there must be as many as the system has.
+    pub fn controls(&self, name: &str, given: &Row) -> PyResult<[f64; 4]> {
+        let given = numbers(name, given, self.inner.controls().len())?;
+        Ok(std::array::from_fn(|i| given.get(i).copied().unwrap_or(0.0)))
     }
 
-    /// Pitch of a blade at azimuth `psi` with controls and their rates.
-    pub fn pitch(&self, stick: &[f64], rate: &[f64], psi: f64) -> PyResult<PitchMotion<f64>> {
-        let needed = self.inner.controls().len();
-        if stick.len() != needed || rate.len() != needed {
-            let (found, rates) = (stick.len(), rate.len());
-            return Err(invalid(format!("stick has {found} numbers, its rate {rates}; {needed} needed")));
-        }
-        let four = |v: &[f64]| std::array::from_fn(|i| v.get(i).copied().unwrap_or(0.0));
-        Ok(self.inner.main().blade_pitch(four(stick), four(rate), psi).into())
+    /// Controls and their rates.
+    pub fn moving(&self, (stick, rate): &(Row, Row)) -> PyResult<Controls> {
+        Ok(Controls { stick: self.controls("stick", stick)?, rate: self.controls("stick_rate", rate)? })
     }
 
-    /// Modal motion by rows of coordinates and rates (rows, n_modes).
-    pub fn motions(
-        &self,
-        (q, q_dot): (&PyReadonlyArray2<'_, f64>, &PyReadonlyArray2<'_, f64>),
-        rows: usize,
-    ) -> PyResult<Vec<ModalMotion<f64>>> {
+    /// Motion of blades (rows, n_modes).
+    pub fn motions(&self, (q, q_dot): &Motion, rows: usize) -> PyResult<Vec<ModalMotion<f64>>> {
         let n = self.inner.main().blade.n_modes;
         let (q, q_dot) = (map("q", q, rows, n)?, map("q_dot", q_dot, rows, n)?);
         let row = |k: usize| k * n..(k + 1) * n;
-        Ok((0..rows).map(|k| motion(q[row(k)].iter().copied(), q_dot[row(k)].iter().copied())).collect())
+        Ok((0..rows).map(|k| ModalMotion::of(&q[row(k)], &q_dot[row(k)])).collect())
     }
 
-    /// A blade at each of `n` azimuths of a periodic motion (n, n_modes), the sticks held.
-    pub fn periodic(
-        &self,
-        motion: (&PyReadonlyArray2<'_, f64>, &PyReadonlyArray2<'_, f64>),
-        n: usize,
-        stick: &[f64],
-    ) -> PyResult<Vec<BladeInstant>> {
-        let still = vec![0.0; numbers("stick", stick, stick.len())?.len()];
-        let mut blades = Vec::with_capacity(n);
-        for (k, modal) in self.motions(motion, n)?.into_iter().enumerate() {
-            let psi = azimuth(k, n);
-            blades.push(BladeInstant { psi, modal, control: self.pitch(stick, &still, psi)? });
-        }
-        Ok(blades)
+    /// Total inflow (rows, n_stations), of thin sections also twice as wide.
+    pub fn inflow(&self, table: &Table, rows: usize) -> PyResult<Vec<f64>> {
+        let (rotor, width) = (self.inner.main(), table.as_array().ncols());
+        let n = if width == rotor.inflow_width() { width } else { rotor.blade.stations.len() };
+        map("inflow", table, rows, n)
     }
 }

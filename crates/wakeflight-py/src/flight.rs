@@ -1,52 +1,49 @@
 //! Fixed-step integration and derivatives for a solver from elsewhere: conversions and checks, the GIL released.
 
-use crate::checks::{numbers, pack, sized, unpack};
+use crate::checks::{Array, Room, Row, array, failed, invalid, numbers, pack, room, unpack};
 use crate::system::{PyInputs, PySystem};
-use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1, PyReadwriteArray2};
-use pyo3::exceptions::{PyArithmeticError, PyValueError};
+use numpy::Ix2;
 use pyo3::prelude::*;
-use pyo3::types::PyBytes;
-use wakeflight::integrate::explicit::{ExplicitFailure, ExplicitMemory, ExplicitStep};
-use wakeflight::integrate::fixed::{Counters, FixedMemory, FixedStep, StepFailure};
-use wakeflight::integrate::linearised::Linearised;
-use wakeflight::system::instant::Instant;
+use wakeflight::integrate::steps::Steps;
+use wakeflight::integrate::{explicit, fixed, linearised};
 
-fn failed(error: StepFailure) -> PyErr {
-    PyArithmeticError::new_err(error.to_string())
-}
-
-/// Fixed steps of Radau IIA; see `wakeflight.integrators`.
-#[pyclass(name = "FixedStep")]
-struct PyFixedStep {
-    inner: FixedStep,
-}
+/// Fixed steps: Radau IIA, or explicit ones for blades that do not bend; see `wakeflight.integrators`.
+#[pyclass]
+pub struct FixedStep(Steps);
 
 #[pymethods]
-impl PyFixedStep {
-    /// At state `y` and time `t` [s], with tolerances; `newton_share` of them is what the Newton iteration may leave; dF/dy is
-    /// kept over an azimuth of `kept` [rad].
+impl FixedStep {
+    /// Radau IIA at state `y` and time `t` [s], with tolerances; `newton_share` of them is what the Newton iteration may leave;
+    /// dF/dy is kept over an azimuth of `kept` [rad].
     #[new]
     #[pyo3(signature = (system, t, y, rtol, atol, newton_share, kept=0.0))]
     fn new(
         system: &PySystem,
         t: f64,
-        y: PyReadonlyArray1<f64>,
+        y: Row,
         rtol: f64,
-        atol: PyReadonlyArray1<f64>,
+        atol: Row,
         newton_share: f64,
         kept: f64,
     ) -> PyResult<Self> {
-        let layout = &system.inner.layout;
-        let (y, atol) =
-            (sized("y", y.as_slice()?, layout.len())?, numbers("atol", atol.as_slice()?, layout.len())?);
-        let solver = FixedStep::new(layout, t, y, rtol, atol, newton_share);
-        Ok(Self { inner: solver.keeping(kept) })
+        let (y, atol) = (system.state("y", &y)?, numbers("atol", &atol, system.inner.layout.len())?);
+        let solver = fixed::FixedStep::new(&system.inner.layout, t, y, rtol, atol, newton_share);
+        Ok(Self(Steps::Implicit(Box::new(solver.keeping(kept)))))
     }
 
-    /// Linearises at the present state; the rate then satisfies F = 0 with `inputs`.
+    /// Explicit steps, with the tolerances that guard them.
+    #[staticmethod]
+    fn explicit(system: &PySystem, t: f64, y: Row, rtol: f64, atol: Row) -> PyResult<Self> {
+        let (y, atol) = (system.state("y", &y)?, numbers("atol", &atol, system.inner.layout.len())?);
+        let solver = explicit::ExplicitStep::new(&system.inner, t, y, rtol, atol);
+        let solver = solver.ok_or_else(|| invalid("explicit steps: for blades that do not bend"))?;
+        Ok(Self(Steps::Explicit(Box::new(solver))))
+    }
+
+    /// The rate then satisfies F = 0 with `inputs`; implicit steps linearise at the present state.
     fn prepare(&mut self, py: Python<'_>, system: &PySystem, inputs: &PyInputs) -> PyResult<()> {
-        let inputs = inputs.fitting(&system.inner)?;
-        py.detach(|| self.inner.prepare(&system.inner, inputs)).map_err(failed)
+        let inputs = inputs.fitting(system)?;
+        py.detach(|| self.0.prepare(&system.inner, inputs)).map_err(failed)
     }
 
     /// Integrates to `t1` [s] in `parts` equal steps with `inputs` held.
@@ -58,194 +55,79 @@ impl PyFixedStep {
         inputs: &PyInputs,
         parts: usize,
     ) -> PyResult<()> {
-        let inputs = inputs.fitting(&system.inner)?;
-        py.detach(|| self.inner.advance(&system.inner, t1, inputs, parts)).map_err(failed)
+        let inputs = inputs.fitting(system)?;
+        py.detach(|| self.0.advance(&system.inner, t1, inputs, parts)).map_err(failed)
     }
 
     /// State.
-    fn state<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        self.inner.state().to_vec().into_pyarray(py)
+    fn state(&self) -> Array {
+        array(self.0.state(), &[])
     }
 
     /// Rate of state.
-    fn rate<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        self.inner.rate().to_vec().into_pyarray(py)
+    fn rate(&self) -> Array {
+        array(self.0.rate(), &[])
     }
 
     /// Residual evaluations, Jacobians, factorisations, Newton iterations, steps, halvings.
-    fn counters(&self) -> (u64, u64, u64, u64, u64, u64) {
-        counted(self.inner.counters())
+    fn counters(&self) -> [u64; 6] {
+        self.0.counters().all()
     }
 
     /// What the steps to come depend on, exact.
-    fn memory<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        pack(py, &self.inner.memory())
+    fn memory(&self) -> PyResult<Vec<u8>> {
+        pack(&self.0.memory())
     }
 
     /// Goes on from `memory` of the same aircraft.
     fn recall(&mut self, system: &PySystem, memory: &[u8]) -> PyResult<()> {
-        let memory: FixedMemory = unpack("integrator", memory)?;
-        let n = system.inner.layout.len();
-        if memory.size() != n {
-            return Err(PyValueError::new_err(format!("integrator of {} states, {n} needed", memory.size())));
-        }
-        self.inner.recall(&system.inner, memory);
-        Ok(())
+        self.0.recall(&system.inner, unpack("integrator", memory)?).map_err(invalid)
     }
-}
-
-fn stopped(error: ExplicitFailure) -> PyErr {
-    PyArithmeticError::new_err(error.to_string())
-}
-
-/// Fixed explicit steps of an aircraft whose blades do not bend; see `wakeflight.integrators`.
-#[pyclass(name = "ExplicitStep")]
-struct PyExplicitStep {
-    inner: ExplicitStep,
-}
-
-#[pymethods]
-impl PyExplicitStep {
-    /// At state `y` and time `t` [s], with the tolerances that guard the step.
-    #[new]
-    fn new(
-        system: &PySystem,
-        t: f64,
-        y: PyReadonlyArray1<f64>,
-        rtol: f64,
-        atol: PyReadonlyArray1<f64>,
-    ) -> PyResult<Self> {
-        let n = system.inner.layout.len();
-        let (y, atol) = (sized("y", y.as_slice()?, n)?, numbers("atol", atol.as_slice()?, n)?);
-        let inner = ExplicitStep::new(&system.inner, t, y, rtol, atol)
-            .ok_or_else(|| PyValueError::new_err("explicit steps: for blades that do not bend"))?;
-        Ok(Self { inner })
-    }
-
-    /// The rate then satisfies F = 0 with `inputs`.
-    fn prepare(&mut self, system: &PySystem, inputs: &PyInputs) -> PyResult<()> {
-        self.inner.prepare(&system.inner, inputs.fitting(&system.inner)?).map_err(stopped)
-    }
-
-    /// Integrates to `t1` [s] in `parts` equal steps with `inputs` held.
-    fn advance(&mut self, system: &PySystem, t1: f64, inputs: &PyInputs, parts: usize) -> PyResult<()> {
-        self.inner.advance(&system.inner, t1, inputs.fitting(&system.inner)?, parts).map_err(stopped)
-    }
-
-    /// State.
-    fn state<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        self.inner.state().to_vec().into_pyarray(py)
-    }
-
-    /// Rate of state.
-    fn rate<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        self.inner.rate().to_vec().into_pyarray(py)
-    }
-
-    /// Residual evaluations, Jacobians, factorisations, Newton iterations, steps, halvings.
-    fn counters(&self) -> (u64, u64, u64, u64, u64, u64) {
-        counted(self.inner.counters())
-    }
-
-    /// What the steps to come depend on, exact.
-    fn memory<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        pack(py, &self.inner.memory())
-    }
-
-    /// Goes on from `memory` of the same aircraft.
-    fn recall(&mut self, system: &PySystem, memory: &[u8]) -> PyResult<()> {
-        let memory: ExplicitMemory = unpack("integrator", memory)?;
-        let n = system.inner.layout.len();
-        if memory.size() != n {
-            return Err(PyValueError::new_err(format!("integrator of {} states, {n} needed", memory.size())));
-        }
-        self.inner.recall(memory);
-        Ok(())
-    }
-}
-
-fn counted(c: Counters) -> (u64, u64, u64, u64, u64, u64) {
-    (c.residual_evaluations, c.jacobians, c.factorisations, c.newton_iterations, c.steps, c.halvings)
 }
 
 /// F linearised once for a solver that asks for its derivatives again and again; see `wakeflight.integrators`.
-#[pyclass(name = "Linearised")]
-struct PyLinearised {
-    inner: Linearised,
-}
+#[pyclass]
+pub struct Linearised(linearised::Linearised);
 
 #[pymethods]
-impl PyLinearised {
+impl Linearised {
     #[new]
     fn new(system: &PySystem) -> Self {
-        Self { inner: Linearised::new(&system.inner.layout) }
+        Self(linearised::Linearised::new(&system.inner.layout))
     }
 
-    /// y_dot that satisfies F = 0 at (t, y), from the guess `y_dot`; linearises there (`renew`), or finds dF/dy_dot alone.
-    fn consistent<'py>(
+    /// y_dot that satisfies F = 0 at (t, y), from the guess `y_dot`; finds dF/dy_dot there, and dF/dy (`whole`) or leaves that.
+    fn consistent(
         &mut self,
-        py: Python<'py>,
         system: &PySystem,
-        at: (f64, PyReadonlyArray1<f64>),
-        y_dot: PyReadonlyArray1<f64>,
+        at: (f64, Row),
+        y_dot: Row,
         inputs: &PyInputs,
-        renew: bool,
-    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        let (linear, system, t) = (&mut self.inner, &system.inner, at.0);
-        let (n, inputs) = (system.layout.len(), inputs.fitting(system)?);
-        let (y, mut rate) =
-            (sized("y", at.1.as_slice()?, n)?, sized("y_dot", y_dot.as_slice()?, n)?.to_vec());
-        let solved = if renew {
-            linear.consistent(system, (t, y), &mut rate, inputs)
-        } else {
-            linear.consistent_by_mass(system, (t, y), &mut rate, inputs)
-        };
-        solved.map_err(|e| PyArithmeticError::new_err(e.to_string()))?;
-        Ok(rate.into_pyarray(py))
+        whole: bool,
+    ) -> PyResult<Array> {
+        let (y, mut rate) = (system.state("y", &at.1)?, system.state("y_dot", &y_dot)?.to_vec());
+        let (system, inputs) = (&system.inner, inputs.fitting(system)?);
+        self.0.consistent(system, (at.0, y), &mut rate, inputs, whole).map_err(failed)?;
+        Ok(array(rate, &[]))
     }
 
-    /// Linearises at (t, y, y_dot).
+    /// Finds dF/dy_dot at (t, y, y_dot), and dF/dy (`whole`) or leaves that as it was.
     fn renew(
         &mut self,
         system: &PySystem,
-        t: f64,
-        y: PyReadonlyArray1<f64>,
-        y_dot: PyReadonlyArray1<f64>,
+        at: (f64, Row),
+        y_dot: Row,
         inputs: &PyInputs,
+        whole: bool,
     ) -> PyResult<()> {
-        let n = system.inner.layout.len();
-        let (y, y_dot) = (sized("y", y.as_slice()?, n)?, sized("y_dot", y_dot.as_slice()?, n)?);
-        let at = Instant { t, y, y_dot, inputs: inputs.fitting(&system.inner)? };
-        self.inner.renew(&system.inner, &at);
-        Ok(())
-    }
-
-    /// Finds dF/dy_dot at (t, y); dF/dy is left as it was.
-    fn renew_mass(
-        &mut self,
-        system: &PySystem,
-        t: f64,
-        y: PyReadonlyArray1<f64>,
-        inputs: &PyInputs,
-    ) -> PyResult<()> {
-        let y = sized("y", y.as_slice()?, system.inner.layout.len())?;
-        let at = Instant { t, y, y_dot: y, inputs: inputs.fitting(&system.inner)? };
-        self.inner.renew_mass(&system.inner, &at);
+        self.0.renew(&system.inner, &system.at(at.0, &at.1, &y_dot, inputs)?, whole);
         Ok(())
     }
 
     /// dF/dy + c dF/dy_dot of the instant last linearised at, into `out` (n, n).
-    fn matrix(&self, c: f64, mut out: PyReadwriteArray2<f64>) -> PyResult<()> {
-        let n = self.inner.slopes.layout().len();
-        sized("out", out.as_slice()?, n * n)?;
-        self.inner.slopes.dense(1.0, c, out.as_slice_mut()?);
+    fn matrix(&self, c: f64, mut out: Room<Ix2>) -> PyResult<()> {
+        let n = self.0.slopes.layout().len();
+        self.0.slopes.dense(1.0, c, room(&mut out, n * n)?);
         Ok(())
     }
-}
-
-/// Registers the classes of this file.
-pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
-    m.add_class::<PyFixedStep>()?;
-    m.add_class::<PyLinearised>()?;
-    m.add_class::<PyExplicitStep>()
 }

@@ -1,4 +1,4 @@
-//! Python bindings: conversions only.
+//! Python bindings: conversions and checks only.
 use pyo3::prelude::*;
 
 mod airfoil;
@@ -10,7 +10,6 @@ mod exchange;
 mod flight;
 mod inflow;
 mod options;
-mod rotor;
 mod system;
 mod trim;
 mod vortex;
@@ -18,18 +17,22 @@ mod wake;
 
 /// The compiled core of wakeflight.
 #[pymodule]
-fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
-    m.add("__version__", env!("CARGO_PKG_VERSION"))?;
-    airfoil::register(m)?;
-    atmosphere::register(m)?;
-    system::register(m)?;
-    blade::register(m)?;
-    flight::register(m)?;
-    exchange::register(m)?;
-    trim::register(m)?;
-    inflow::register(m)?;
-    options::register(m)?;
-    vortex::register(m)?;
-    wake::register(m)?;
-    Ok(())
+mod _core {
+    #[pymodule_export]
+    #[expect(non_upper_case_globals)]
+    const __version__: &str = env!("CARGO_PKG_VERSION");
+    #[pymodule_export]
+    use crate::{
+        airfoil::{AirfoilCycle, airfoil_cycle, unsteady_models},
+        atmosphere::standard_atmosphere,
+        blade::BladeModes,
+        exchange::{PyExchange, PySteadyWake},
+        flight::{FixedStep, Linearised},
+        inflow::{momentum_inflow, pitt_peters_rate},
+        options::{check_options, option_descriptors},
+        system::{PyInputs, PySystem},
+        trim::{TrimLayout, TrimProblem},
+        vortex::{induced_velocity, instruction_set, set_threads},
+        wake::{RelaxationWake, TimeMarchingWake, near_wake_matrix, wing_circulation},
+    };
 }

@@ -47,7 +47,7 @@ pub(crate) fn marching_options(options_json: &str, of: &WakeOptions) -> PyResult
 
 /// What is told of every option, as JSON: a list of objects, see `wakeflight.options`.
 #[pyfunction]
-fn option_descriptors() -> PyResult<String> {
+pub fn option_descriptors() -> PyResult<String> {
     let groups = [
         WakeOptions::descriptors(),
         RelaxationOptions::descriptors(),
@@ -59,7 +59,7 @@ fn option_descriptors() -> PyResult<String> {
 
 /// Refuses options that do not go together, and with a rotor those that do not go with it.
 #[pyfunction]
-fn check_options(options_json: &str) -> PyResult<()> {
+pub fn check_options(options_json: &str) -> PyResult<()> {
     let given = read(options_json)?;
     let wake = match given.rotor {
         Some(rotor) => WakeOptions { rotor, ..given.wake },
@@ -70,10 +70,4 @@ fn check_options(options_json: &str) -> PyResult<()> {
     let marching = given.marching.map_or(Ok(()), |own| own.validate(&wake));
     let annular = given.annular.map_or(Ok(()), |own| own.check());
     checked.and(relaxation).and(marching).and(annular).map_err(py_error)
-}
-
-/// Adds this file's functions to the module.
-pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
-    m.add_function(wrap_pyfunction!(option_descriptors, m)?)?;
-    m.add_function(wrap_pyfunction!(check_options, m)?)
 }

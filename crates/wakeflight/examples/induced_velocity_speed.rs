@@ -1,12 +1,15 @@
 //! Nanoseconds per evaluation of the segment sum: 576 markers of four helices at their own segments, one thread.
 //!
 //! One line each: core distance, core, instruction set, median and best of 51 repetitions [ns]. `textbook` is the plain
-//! loop over points and segments of the reference law, measured in turn with the others.
+//! loop over points and segments of the reference law, measured in turn with the others; `directional` the sum with its
+//! derivative along a direction, on the instruction set in use.
 use std::f64::consts::FRAC_PI_2;
 use std::hint::black_box;
 use std::time::Instant;
+use wakeflight::numerics::instruction_set::InstructionSet;
 use wakeflight::vortex::core::{Core, CoreDistance, segment_velocity};
-use wakeflight::vortex::induced_velocity::{Filaments, InstructionSet, add_filaments_velocity_on};
+use wakeflight::vortex::directional::{Targets, directional};
+use wakeflight::vortex::induced_velocity::{Filaments, add_filaments_velocity_on};
 use wakeflight::vortex::threads::set_threads;
 
 const CORES: [Core; 6] =
@@ -63,13 +66,14 @@ fn main() {
         points.extend_from_slice(&nodes[1..]);
         filaments.push(&nodes, &[1.0; 144], &[0.05; 144]);
     }
+    let rates = Filaments {
+        nodes: filaments.nodes.iter().map(|p| [p[1], -p[0], 0.1]).collect(),
+        ..filaments.clone()
+    };
+    let moves = vec![[0.1, 0.2, 0.3]; points.len()];
     let evaluations = (points.len() * filaments.circulation.len()) as f64;
     let mut velocity = vec![[0.0; 3]; points.len()];
-    let sets = [
-        ("scalar", InstructionSet::Scalar),
-        ("avx2", InstructionSet::Vector),
-        ("avx512", InstructionSet::Avx512),
-    ];
+    let sets = InstructionSet::ALL.into_iter().filter(|set| set.available());
     for distance in [CoreDistance::Line, CoreDistance::Segment] {
         for core in CORES {
             let mut line = |name: &str, share: f64, task: &mut dyn FnMut(&mut [[f64; 3]])| {
@@ -80,14 +84,15 @@ fn main() {
             // a part of the points: as short a run as the others
             let few = &points[..points.len() / 16];
             line("textbook", 1.0 / 16.0, &mut |v| textbook(few, &filaments, core, distance, v));
-            for (name, set) in sets {
-                if set == InstructionSet::Avx512 && InstructionSet::widest() != set {
-                    continue;
-                }
-                line(name, 1.0, &mut |v| {
+            for set in sets.clone() {
+                line(set.name(), 1.0, &mut |v| {
                     add_filaments_velocity_on(set, &points, &filaments, core, distance, v);
                 });
             }
+            line("directional", 1.0, &mut |_| {
+                let targets = Targets { points: &points, rates: &moves };
+                black_box(directional(targets, &filaments, &rates, (core, distance)));
+            });
         }
     }
 }

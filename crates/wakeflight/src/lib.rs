@@ -2,9 +2,6 @@
 //!
 //! The physics, as a tower: each room uses only rooms above it in this list.
 
-// what belongs together physically is given together
-#![warn(clippy::too_many_arguments)]
-
 pub mod numerics;
 
 pub mod atmosphere;

@@ -4,6 +4,7 @@ mod data_files;
 
 use data_files::*;
 use wakeflight::airframe::interference::{FuselageWash, Interference};
+use wakeflight::airframe::tail_rotor::ClosedFormState;
 use wakeflight::numerics::frames::{Body, Vec3};
 use wakeflight::numerics::scalar::{Dual, Real};
 
@@ -239,6 +240,24 @@ fn stabilator_schedule_at_its_corners() {
     assert_derivatives(x, [s.incidence(d[0], d[1], d[2])], 1.0, evaluate);
 }
 
+fn closed<S: Real>(theta: S, inflow: S) -> ClosedFormState<S> {
+    ClosedFormState { theta, inflow, speed_ratio: S::cst(1.0) }
+}
+
+/// A tail rotor at another speed is the rotor whose nominal speed that is; its inflow counts at the one it had.
+#[test]
+fn a_tail_rotor_off_its_speed_is_one_of_that_speed() {
+    let (ratio, v, theta) = (0.9, V::new(12.0, -3.0, 1.0), 0.28);
+    let (own, mut slower) = (tail_rotor(), tail_rotor());
+    slower.omega *= ratio;
+    let off = own.evaluate(v, ClosedFormState { theta, inflow: 0.04, speed_ratio: ratio }, 1.1, v.x);
+    let at = slower.evaluate(v, closed(theta, 0.04 / ratio), 1.1, v.x);
+    for (a, b) in [(off.thrust, at.thrust), (off.power, at.power)] {
+        assert!((a / b - 1.0).abs() < 1e-13, "{a} {b}");
+    }
+    assert!((off.lambda_i_dot / (ratio * at.lambda_i_dot) - 1.0).abs() < 1e-12);
+}
+
 /// Inflow state at rest for a velocity and a pitch.
 fn steady_inflow(v: V, theta: f64, rho: f64) -> f64 {
     let t = tail_rotor();
@@ -246,8 +265,7 @@ fn steady_inflow(v: V, theta: f64, rho: f64) -> f64 {
     for _ in 0..50 {
         let l = t.evaluate(
             Vec3::cst(v.array()),
-            Dual::<1>::cst(theta),
-            Dual::<1>::variable(x, 0),
+            closed(Dual::<1>::cst(theta), Dual::<1>::variable(x, 0)),
             rho,
             Dual::<1>::cst(v.x),
         );
@@ -261,7 +279,7 @@ fn tail_rotor_at_rest_obeys_momentum_theory_and_pushes_right_and_up() {
     let (t, rho) = (tail_rotor(), 1.225);
     let theta = 20f64.to_radians();
     let x = steady_inflow(V::zero(), theta, rho);
-    let l = t.evaluate(V::zero(), theta, x, rho, 0.0);
+    let l = t.evaluate(V::zero(), closed(theta, x), rho, 0.0);
     let unit = rho * std::f64::consts::PI * t.radius.powi(2) * (t.omega * t.radius).powi(2);
     let ct = l.thrust / 0.9 / unit;
     assert!((ct - 2.0 * x * x).abs() < 1e-9);
@@ -282,28 +300,29 @@ fn tail_rotor_at_rest_obeys_momentum_theory_and_pushes_right_and_up() {
 #[test]
 fn tail_rotor_thrust_falls_when_it_moves_along_its_thrust() {
     let t = tail_rotor();
-    let at = |v: V| t.evaluate(v, 0.3, 0.04, 1.2, v.x).thrust;
+    let at = |v: V| t.evaluate(v, closed(0.3, 0.04), 1.2, v.x).thrust;
     // to the right and up is along the thrust
     assert!(at(V::new(0.0, 5.0, 0.0)) < at(V::zero()));
     assert!(at(V::new(0.0, 0.0, -5.0)) < at(V::zero()));
     // yaw to the right (nose right, tail left) raises it: damping
     assert!(at(V::new(0.0, -5.0, 0.0)) > at(V::zero()));
     // fin blockage 0.9 at rest, none from 30 kt
-    let ratio = |u: f64| t.evaluate(V::zero(), 0.3, 0.04, 1.2, u).thrust;
+    let ratio = |u: f64| t.evaluate(V::zero(), closed(0.3, 0.04), 1.2, u).thrust;
     assert!((ratio(0.0) / ratio(30.0 * KNOT) - 0.9).abs() < 1e-12);
     assert!((ratio(15.0 * KNOT) / ratio(60.0) - 0.925).abs() < 1e-12);
 }
 
 #[test]
 fn tail_rotor_derivatives_equal_central_differences_and_are_finite_at_rest() {
-    fn evaluate<S: Real>(x: [S; 6]) -> [S; 5] {
-        let l = tail_rotor().evaluate(Vec3::new(x[0], x[1], x[2]), x[3], x[4], 1.1, x[5]);
+    fn evaluate<S: Real>(x: [S; 7]) -> [S; 5] {
+        let state = ClosedFormState { theta: x[3], inflow: x[4], speed_ratio: x[6] };
+        let l = tail_rotor().evaluate(Vec3::new(x[0], x[1], x[2]), state, 1.1, x[5]);
         [l.force.y, l.force.z, l.thrust, l.power, l.lambda_i_dot]
     }
-    for x in [[40.0, 2.0, -3.0, 0.25, 0.02, 12.0], [1.0, -4.0, 3.0, 0.3, 0.05, 3.0]] {
+    for x in [[40.0, 2.0, -3.0, 0.25, 0.02, 12.0, 0.93], [1.0, -4.0, 3.0, 0.3, 0.05, 3.0, 1.04]] {
         assert_derivatives(x, evaluate(variables(x)), 1e5, evaluate);
     }
-    for s in evaluate(variables([0.0; 6])) {
+    for s in evaluate(variables([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0])) {
         assert!(s.re.is_finite() && s.eps.iter().all(|e| e.is_finite()));
     }
 }

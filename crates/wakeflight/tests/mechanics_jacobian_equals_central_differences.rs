@@ -5,7 +5,7 @@ mod mechanics_support;
 use mechanics_support::beam_support::uh60a;
 use mechanics_support::*;
 use wakeflight::airfoil::span::SpanSections;
-use wakeflight::system::instant::{HeldInflow, Inputs};
+use wakeflight::system::instant::{Disturbance, HeldInflow, Inputs};
 use wakeflight::system::model::System;
 
 const STICK: [f64; 4] = [0.13, 0.14, 0.12, 0.06];
@@ -82,6 +82,7 @@ fn cases(smooth: bool) -> Vec<(System, Inputs, &'static str)> {
     vec![
         (build(&tandem(&data), false, 9.80665), both, "two rotors, the second clockwise"),
         (on_stand(&data, false), moving.clone(), "a stand, dynamic inflow"),
+        (changing_speed(dynamic.clone(), 0.8, 0.3), moving.clone(), "rotor speed falling"),
         (dynamic, moving, "dynamic inflow, sticks moving"),
         (
             held.clone(),
@@ -147,10 +148,11 @@ fn derivatives_by_what_acts_equal_central_differences() {
             continue;
         }
         let (t, (y, y_dot)) = (0.123, random_state(&aircraft, &mut Random::new(12)));
-        let slopes = aircraft.input_slopes(&at(t, &y, &y_dot, &inputs));
+        let slopes = aircraft.input_slopes(&at(t, &y, &y_dot, &inputs)).unwrap();
         let columns = slopes.names.len();
         let stations = inputs.inflow.iter().any(|held| matches!(held, HeldInflow::Stations { .. }));
-        assert_eq!(columns > 9, stations);
+        let disturbed = columns - 3 - 2 * aircraft.rotors.len();
+        assert_eq!(disturbed > 9, stations);
         for (column, (input, _)) in slopes.names.iter().enumerate() {
             let moved = |h: f64| {
                 let mut inputs = inputs.clone();
@@ -158,6 +160,15 @@ fn derivatives_by_what_acts_equal_central_differences() {
                     0..4 => inputs.stick[column] += h,
                     4..8 => inputs.stick_rate[column - 4] += h,
                     8 => inputs.stabilator_incidence += h,
+                    _ if column >= disturbed => {
+                        let speed = vec![[0.0; 2]; aircraft.rotors.len()];
+                        let mut more = Disturbance { wind: [0.0; 3], speed };
+                        match column - disturbed {
+                            k @ 0..3 => more.wind[k] = h,
+                            k => more.speed.as_flattened_mut()[k - 3] = h,
+                        }
+                        inputs.disturbance = Some(more);
+                    }
                     _ => {
                         let HeldInflow::Stations { inflow, mean } = &mut inputs.inflow[0] else { panic!() };
                         *inflow.get_mut(column - 9).unwrap_or(mean) += h;
@@ -168,6 +179,7 @@ fn derivatives_by_what_acts_equal_central_differences() {
             let expected = difference(moved, 1e-4);
             let found: Vec<f64> = (0..y.len()).map(|row| slopes.values[row * columns + column]).collect();
             if expected.iter().chain(&found).all(|v| v.abs() < 1e-7) {
+                assert!(column < disturbed, "{name}: nothing feels {input}");
                 continue;
             }
             let e = relative_error(&found, &expected);

@@ -1,5 +1,5 @@
 //! Airframe and blades without air or damping: momentum and moment of momentum change by gravity alone, energy by the
-//! work of the shaft, -M_z Omega, that holds the rotor speed.
+//! work of the shaft, -M_z Omega, that holds the rotor speed or changes it.
 
 mod mechanics_support;
 
@@ -47,7 +47,7 @@ fn invariants(aircraft: &System, t: f64, y: &[f64], y_dot: &[f64], pitch: f64) -
     for b in 0..rotor.n_blades {
         let start = aircraft.layout.main().modal(b).start;
         let q: [D; 5] = std::array::from_fn(|i| state[start + i]);
-        let psi = D { re: rotor.azimuth(rotor.omega * t, b), eps: [rotor.omega] };
+        let psi = D { re: rotor.azimuth(rotor.turned(t), b), eps: [rotor.turning(t, 0.0).omega] };
         for p in &rotor.blade.structure {
             let at = section_place(&rotor.blade, p, &q, D::cst(pitch), psi, hub, &hub_attitude);
             let s = section_momentum(p, [0.0; 3], at);
@@ -120,12 +120,17 @@ fn momentum_and_energy_are_conserved_in_vacuum() {
     let mut general = uh60a();
     general.precone = 0.05;
     general.structure.x_cg.iter_mut().for_each(|x| *x += 0.015);
-    for (blade, gravity) in [(uh60a(), 0.0), (general, 9.80665)] {
-        let aircraft = conservative_aircraft(blade, gravity);
+    for (blade, gravity, share) in
+        [(uh60a(), 0.0, 1.0), (general.clone(), 9.80665, 1.0), (general, 9.80665, 0.7)]
+    {
+        let mut aircraft = conservative_aircraft(blade, gravity);
+        if share < 1.0 {
+            aircraft = changing_speed(aircraft, share, 0.3);
+        }
         let (coarse, fine) = (fly(&aircraft, 180), fly(&aircraft, 360));
         for b in [&coarse, &fine] {
             println!(
-                "gravity {gravity}: energy {:.1e} of {:.0} J exchanged, momentum {:.1e}, moment {:.1e}",
+                "gravity {gravity}, speed to {share}: energy {:.1e} of {:.0} J exchanged, momentum {:.1e}, moment {:.1e}",
                 b.energy, b.exchanged, b.momentum, b.moment
             );
         }

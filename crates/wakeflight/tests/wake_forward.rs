@@ -59,7 +59,7 @@ fn verif_level_flight_inflow_is_that_of_momentum_theory_and_leans_aft() {
 
 #[test]
 fn verif_central_marching_reaches_the_relaxed_wake() {
-    let central = MarchingOptions { scheme: Scheme::Pcc, ..MarchingOptions::default() };
+    let central = MarchingOptions { scheme: Scheme::Pcc, ..two_fields() };
     let (map, reference, _, _, grid) = march(&level_options(), central, 12);
     let difference = disk_rms(&grid, &difference(&map, &reference)) / harmonics(&grid, &reference)[0];
     println!("disk RMS of the difference over the mean {difference}");
@@ -68,7 +68,7 @@ fn verif_central_marching_reaches_the_relaxed_wake() {
 
 /// Backward scheme against relaxation: RMS of the difference of inflow and drift of its mean, over the mean.
 fn backward_difference(options: &WakeOptions, revolutions: usize) -> (f64, f64, f64) {
-    let (map, reference, change, _, grid) = march(options, MarchingOptions::default(), revolutions);
+    let (map, reference, change, _, grid) = march(options, two_fields(), revolutions);
     let mean = harmonics(&grid, &reference)[0];
     let rms = disk_rms(&grid, &difference(&map, &reference)) / mean;
     let drift = harmonics(&grid, &map)[0] / mean - 1.0;
@@ -97,8 +97,7 @@ fn verif_odd_even_mode_grows_with_a_central_predictor_and_decays_with_a_filter()
     // the operator of PC2B has the amplification factor -1 for every mode of age
     let case = |predictor, time_filter| {
         let options = WakeOptions { turns: 3.0, n_stations: 5, ..level_options() };
-        let own =
-            MarchingOptions { scheme: Scheme::Pc2b, predictor, time_filter, ..MarchingOptions::default() };
+        let own = MarchingOptions { scheme: Scheme::Pc2b, predictor, time_filter, ..two_fields() };
         march(&options, own, 16)
     };
     let (.., grown, _, _) = case(Predictor::Central, 0.0);
@@ -176,7 +175,7 @@ mod inertial {
         // the same flight condition for both from the first step on
         let gamma = uniform_circulation(&options, ct);
         start.set_state(turning, &vec![(0.0, 0.0); steps], &vec![gamma; steps * options.n_stations]).unwrap();
-        let central = MarchingOptions { scheme: Scheme::Pcc, ..MarchingOptions::default() };
+        let central = MarchingOptions { scheme: Scheme::Pcc, ..two_fields() };
         let mut marched = TimeMarchingWake::from_relaxation(&start, 0, central).unwrap();
 
         let inertial = HubMotion { rates: turning.rates.map(|w| sense * w), ..turning };
@@ -265,7 +264,7 @@ fn verif_the_marched_sheet_stays_the_periodic_one() {
         ..level_options()
     };
     let start = relaxation(&options, level_hub(), CT, momentum_inflow(CT, MU, CLIMB));
-    let mut wake = TimeMarchingWake::from_relaxation(&start, 0, MarchingOptions::default()).unwrap();
+    let mut wake = TimeMarchingWake::from_relaxation(&start, 0, two_fields()).unwrap();
     revolution(&mut wake, level_hub(), CT, 0);
     revolution(&mut wake, level_hub(), CT, 36);
     let (marched, periodic) = (&wake.instant().sheet, &start.instant(72).sheet);

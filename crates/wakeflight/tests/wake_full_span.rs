@@ -63,7 +63,7 @@ fn verif_uniform_circulation_leaves_a_tip_and_a_root_filament() {
         wake.sweep(1).unwrap();
         point_velocity(&VortexSegments::new(options), options, &wake.instant(5), &points)
     };
-    let base = WakeOptions { trailer_core: 0.02, ..full_span() };
+    let base = WakeOptions { trailer_core: Some(0.02), core_radius: 0.02, ..full_span() };
     let reference = {
         let tip = field(&WakeOptions { trailers: Trailers::Tip, ..base });
         // the root filament as the tip vortex of a blade that ends there, without the bound vortex
@@ -111,7 +111,8 @@ fn rectangular_wing(aspect: f64, n: usize) -> [f64; 2] {
         near_wake_angle: 0.0,
         azimuth_step: TAU / 60.0,
         turns: 1.0,
-        trailer_core: 0.0,
+        trailer_core: Some(0.0),
+        core_radius: 0.0,
         core_growth: 0.0,
         station_core_floor: 0.0,
         ..WakeOptions::new(1, aspect, 0.0, 0.0, 1.0, 1.0)
@@ -188,7 +189,8 @@ fn verif_shed_vortices_bring_the_lift_deficiency_of_theodorsen() {
             azimuth_step: TAU / n_k as f64,
             turns: 1.0,
             near_wake_angle: full_angle * near as f64,
-            trailer_core: 0.0,
+            trailer_core: Some(0.0),
+            core_radius: 0.0,
             core_growth: 0.0,
             station_core_floor: 0.0,
             ..WakeOptions::new(1, 20_000.0, 0.0, 0.0, 1.0, 1.0)
@@ -316,14 +318,15 @@ fn verif_central_marching_settles_on_the_relaxed_lattice() {
             azimuth_step: TAU / steps as f64,
             turns: 1.0,
             n_trailers: 5,
-            trailer_core: 0.06,
+            trailer_core: Some(0.06),
+            core_radius: 0.06,
             ..full_span()
         };
         let hub = hub(0.185, -0.1, 0.0, 0.0, 0.0);
         let mut start = loaded(&options, hub, 0.016);
         settle(&mut start, 1e-6, 120);
         let reference = start.inflow_far();
-        let central = MarchingOptions { scheme: Scheme::Pcc, ..MarchingOptions::default() };
+        let central = MarchingOptions { scheme: Scheme::Pcc, ..two_fields() };
         let mut wake = TimeMarchingWake::from_relaxation(&start, 0, central).unwrap();
         let circulation = rounded_circulation(&options, CT).repeat(2);
         let n_r = options.n_stations;
@@ -372,7 +375,7 @@ fn verif_every_trailer_is_second_order() {
         let options =
             WakeOptions { azimuth_step: TAU / steps as f64, turns: 2.0, n_trailers: 3, ..full_span() };
         let whole = RelaxationOptions { relaxation: 1.0, ..RelaxationOptions::default() };
-        let own = MarchingOptions { scheme: scheme.unwrap_or(Scheme::Bdf2), ..MarchingOptions::default() };
+        let own = MarchingOptions { scheme: scheme.unwrap_or(Scheme::Bdf2), ..two_fields() };
         let none = vec![0.0; steps * options.n_stations];
         let field: fn([f64; 3]) -> [f64; 3] = swirl;
         let mut start = RelaxationWake::with_field(options, whole, hub, 0.01, Prescribed(field)).unwrap();
@@ -416,14 +419,13 @@ fn verif_the_field_of_a_full_span_wake_by_the_tree_is_within_its_tolerance() {
         n_trailers: 0,
         azimuth_step: TAU / 36.0,
         turns: 4.0,
-        trailer_core: 0.02,
+        trailer_core: Some(0.02),
+        core_radius: 0.02,
         ..full_span()
     };
     let field = |summation: Summation, tree_tolerance: f64| {
         let options = WakeOptions { summation, tree_tolerance, ..lattice };
-        let wake =
-            TimeMarchingWake::from_relaxation(&loaded(&options, hub, 0.02), 0, MarchingOptions::default())
-                .unwrap();
+        let wake = TimeMarchingWake::from_relaxation(&loaded(&options, hub, 0.02), 0, two_fields()).unwrap();
         wake.wake_velocity(wake.position())
     };
     let size = |v: [f64; 3]| v.iter().map(|c| c * c).sum::<f64>().sqrt();
@@ -453,8 +455,7 @@ fn verif_marching_by_the_tree_is_marching_by_the_direct_sum_within_its_tolerance
             ..full_span()
         };
         let mut wake =
-            TimeMarchingWake::from_relaxation(&loaded(&options, hub, 0.03), 0, MarchingOptions::default())
-                .unwrap();
+            TimeMarchingWake::from_relaxation(&loaded(&options, hub, 0.03), 0, two_fields()).unwrap();
         for step in 1..=2 {
             wake.step(hub, &blades(&options, step), &[12.0; 40]).unwrap();
         }

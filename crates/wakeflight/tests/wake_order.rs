@@ -123,6 +123,11 @@ fn errors(a: &[[f64; 3]], b: &[[f64; 3]]) -> (f64, f64) {
     (mean.sqrt() / RADIUS, squares.iter().fold(0.0f64, |m, s| m.max(*s)).sqrt() / RADIUS)
 }
 
+/// Options of marching with a field of the predicted and of the corrected wake in every step.
+fn two_fields() -> MarchingOptions {
+    MarchingOptions { evaluation: Evaluation::Pece, ..MarchingOptions::default() }
+}
+
 enum Solver {
     Relaxation,
     Marching(Scheme, Form),
@@ -132,7 +137,7 @@ enum Solver {
 /// RMS error over R in the swirling field at `steps` per revolution.
 fn swirl_error(solver: &Solver, steps: usize) -> f64 {
     let (hub, flap) = (hub(0.185, -0.015), 0.05);
-    let (mut options, mut own) = (options(steps, 3.0), MarchingOptions::default());
+    let (mut options, mut own) = (options(steps, 3.0), two_fields());
     if let Solver::Marching(scheme, form) = solver {
         (own.scheme, options.form) = (*scheme, *form);
     }
@@ -238,7 +243,7 @@ mod contraction {
 
     /// Largest error over R.
     fn error(scheme: Option<(Scheme, Form)>, steps: usize) -> f64 {
-        let (mut options, mut own) = (options(steps, 3.0), MarchingOptions::default());
+        let (mut options, mut own) = (options(steps, 3.0), two_fields());
         if let Some((scheme, form)) = scheme {
             (own.scheme, options.form) = (scheme, form);
         }
@@ -350,7 +355,7 @@ mod undisturbed {
     /// Largest deviation from the carried helix after three revolutions, over R.
     fn deviation(scheme: Scheme, form: Form, predictor: Predictor) -> f64 {
         let options = WakeOptions { form, ..options(36, 3.0) };
-        let own = MarchingOptions { scheme, predictor, ..MarchingOptions::default() };
+        let own = MarchingOptions { scheme, predictor, ..two_fields() };
         let hub = hub(0.185, -0.03);
         let start = periodic(&options, hub, 0.05, 0.0, Prescribed(nothing as fn([f64; 3]) -> [f64; 3]));
         let wake = marched(&start, own, hub, 0.05, 108);
@@ -377,7 +382,7 @@ mod undisturbed {
     fn verif_backward_differences_of_positions_contract_and_delay_the_helix() {
         // one per rev at 10 deg: 0.9918 of the amplitude and 2.7 deg of lag per turn
         let options = WakeOptions { form: Form::Position, ..options(36, 4.0) };
-        let own = MarchingOptions { scheme: Scheme::Pc2b, ..MarchingOptions::default() };
+        let own = MarchingOptions { scheme: Scheme::Pc2b, ..two_fields() };
         let start =
             periodic(&options, hub(0.0, -0.03), 0.0, 0.0, Prescribed(nothing as fn([f64; 3]) -> [f64; 3]));
         let wake = marched(&start, own, hub(0.0, -0.03), 0.0, 10 * 36);

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import InputError
+from ..units import number
 from .airfoils import checked, read_c81
 from .model import Aircraft
 from .rotor import Rotor, load_rotor
@@ -32,9 +33,7 @@ def section_at(airfoil: str | Path | Rotor | Aircraft, station: float | None) ->
             raise InputError.of("station", station, "a C81 deck is one section; a station belongs to a blade")
         return _deck(Path(airfoil))
     rotor = load_rotor(airfoil)
-    at = 0.75 if station is None else station
-    if isinstance(at, bool) or not isinstance(at, int | float) or not 0.0 <= at <= 1.0:
-        raise InputError.of("station", station, "must be a number between 0 and 1 (r/R)")
+    at = 0.75 if station is None else number("station", station, 0.0, 1.0)
     return SectionAt(f"{rotor.name} at {at:g} R", rotor.data["airfoil"], at * rotor.radius, rotor.references)
 
 

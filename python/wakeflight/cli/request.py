@@ -94,7 +94,9 @@ def check_flight(revolutions: float | None, integrator: str) -> None:
 
 
 def set_threads(threads: int | None) -> None:
-    """Pass --threads, or check WAKEFLIGHT_THREADS, which the physics core reads when it is loaded."""
+    """Pass --threads, or check WAKEFLIGHT_THREADS and WAKEFLIGHT_SIMD, which the physics core reads."""
+    from .._core import instruction_set
+
     if threads is not None:
         if not 1 <= threads <= 1024:
             raise InputError.of("--threads", threads, "must lie between 1 and 1024")
@@ -102,6 +104,10 @@ def set_threads(threads: int | None) -> None:
     text = os.environ.get("WAKEFLIGHT_THREADS", "1")
     if not (text.isascii() and text.isdigit() and 1 <= int(text) <= 1024):
         raise InputError.of("WAKEFLIGHT_THREADS", text, "must be a whole number between 1 and 1024")
+    try:
+        instruction_set()
+    except ValueError as error:
+        raise InputError(str(error)) from None
 
 
 def writable(folder: Path) -> Path:

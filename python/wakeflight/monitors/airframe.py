@@ -76,12 +76,14 @@ def torque(shaft: Any, limit: float | None, time: np.ndarray | None = None) -> l
     return [Monitor("torque at most", f"{most / 1e3:.2f} kN m (limit {limit / 1e3:.2f} kN m)", warning=warning)]
 
 
-def rotor_speed(omega: float, limits: tuple[float, float] | None) -> list[Monitor]:
-    """Rotor speed [rad/s] where the aircraft states the lowest and the highest; none where it does not."""
+def rotor_speed(omega: Any, limits: tuple[float, float] | None) -> list[Monitor]:
+    """Rotor speed [rad/s], a number or (n_times,), where the aircraft states the lowest and the highest; else none."""
     if limits is None:
         return []
-    stated = f"{omega:.4g} rad/s (limits {limits[0]:.4g} to {limits[1]:.4g})"
-    outside = not limits[0] <= omega <= limits[1]
+    low, high = float(np.min(omega)), float(np.max(omega))
+    span = f"{low:.4g}" if low == high else f"{low:.4g} to {high:.4g}"
+    stated = f"{span} rad/s (limits {limits[0]:.4g} to {limits[1]:.4g})"
+    outside = not limits[0] <= low <= high <= limits[1]
     return [Monitor("rotor speed", stated, warning=f"rotor speed {stated}: outside" if outside else None)]
 
 

@@ -117,7 +117,8 @@ def bounds(
     station, chord = (np.asarray(rotor[name]) / radius for name in ("stations", "chords"))
     twist = np.interp(rotor["stations"], tables["blade"]["twist"]["x"], tables["blade"]["twist"]["y"])
     # a filament that stretches thins its core, down to the floor of the stations
-    released = wake.trailer_core if wake.trailers == "full-span" else wake.core_radius
+    inboard = LEAST_TRAILER_CORE if wake.trailer_core is None else wake.trailer_core
+    released = min(inboard, wake.core_radius) if wake.is_full_span else wake.core_radius
     named = 0.0 if wake.core_stretching else released
     core = max(named, max(wake.station_core_floor, THINNEST_CORE) * float(chord.min()))
     # thin sections lift by 2 pi sin(alpha) and have no stall
@@ -125,6 +126,10 @@ def bounds(
         2.0 * np.pi if thin_sections else max(largest(table["cl"]["values"]) for table in tables["airfoil"]["tables"])
     )
     return Bounds(rotor["n_blades"], rotor["omega"], radius, speed_of_sound, station, chord, twist, lift_max, core)
+
+
+LEAST_TRAILER_CORE = 0.02
+"""What the core gives to trailers inboard of the tip at least, over R, where `trailer_core` is left open."""
 
 
 def largest(table: Sequence[Sequence[float]]) -> float:

@@ -15,6 +15,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from ..results.disk import area_weights, element_widths, first_harmonics
+from ..results.turns import revolutions
 from . import style
 
 if TYPE_CHECKING:
@@ -30,7 +31,7 @@ REFINE = 4
 
 def revolutions_flown(run: xr.Dataset) -> float:
     """Rotor revolutions from the start to the last recorded time."""
-    return float(run.time[-1]) * float(run.attrs["omega"]) / TURN
+    return float(revolutions(run)[-1])
 
 
 def revolution_map(run: xr.Dataset, name: str, revolution: float) -> xr.DataArray:
@@ -42,7 +43,7 @@ def revolution_map(run: xr.Dataset, name: str, revolution: float) -> xr.DataArra
     """
     import xarray as xr
 
-    flown = run.time.values * float(run.attrs["omega"]) / TURN
+    flown = revolutions(run)
     if not 1 - 1e-3 <= revolution <= flown[-1] + 1e-3:
         raise ValueError(f"revolution {revolution:g}: a map needs 1 to {flown[-1]:.2f}")
     step = float(np.median(np.diff(flown)))

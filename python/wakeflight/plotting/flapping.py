@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 CAPTION = (
     "First flap mode by the multiblade transform, β = β₀ + β₁c cos ψ + β₁s sin ψ: β₁c > 0 is disk "
-    "forward-down, β₁s > 0 is advancing (right) side up."
+    "forward-down, β₁s > 0 is advancing side up."
 )
 PANELS = (
     Panel("beta_1c", "β₁c [deg]\n(+ forward-down)", DEG, span=1.0),

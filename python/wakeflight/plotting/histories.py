@@ -3,14 +3,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.figure import Figure
 
 from ..results import by_name
+from ..results.turns import revolutions
 from . import style
 
 if TYPE_CHECKING:
@@ -82,14 +83,26 @@ def histories(runs: Runs, panels: Sequence[Panel], title: str, columns: int = 2,
     return figure
 
 
+def _scale_of_revolutions(run: xr.Dataset) -> tuple[Callable[[Any], Any], Callable[[Any], Any]]:
+    """Revolutions by seconds, and seconds by revolutions; beyond the run at the nominal speed."""
+    period = seconds_per_revolution(run)
+    if "rotor_speed" not in run:
+        return lambda t: t / period, lambda n: n * period
+    beyond = 1e3 * np.array([-1.0, 1.0])
+    turns, time = revolutions(run), run.time.values
+    turns = np.concatenate([turns[:1] + beyond[0], turns, turns[-1:] + beyond[1]])
+    time = np.concatenate([time[:1] + period * beyond[0], time, time[-1:] + period * beyond[1]])
+    return lambda t: np.interp(t, time, turns), lambda n: np.interp(n, turns, time)
+
+
 def _time_axes(grid: np.ndarray, run: xr.Dataset, n_panels: int) -> None:
     """Seconds below, revolutions above each column."""
     rows, columns = grid.shape
-    period = seconds_per_revolution(run)
+    forward, back = _scale_of_revolutions(run)
     for column in range(columns):
         last = min(rows, n_panels - column * rows) - 1
         grid[last, column].set_xlabel("time [s]")
         grid[last, column].tick_params(labelbottom=True)
-        top = grid[0, column].secondary_xaxis("top", functions=(lambda t: t / period, lambda n: n * period))
+        top = grid[0, column].secondary_xaxis("top", functions=(forward, back))
         top.set_xlabel("rotor revolutions")
         top.spines["top"].set_visible(True)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.figure import Figure
 
+from ..results.turns import revolutions
 from . import disk, style
 from .style import styled
 
@@ -102,7 +103,7 @@ def transient(data: xr.Dataset) -> Figure:
     """Collective, thrust, torque, inflow and flapping over the revolutions of a transient."""
     figure = style.blank(6.4)
     panels = figure.subplots(3, 2, sharex=True)
-    turns = data.time * data.attrs["omega"] / (2 * np.pi)
+    turns = revolutions(data)
     rows = (
         (np.degrees(data.theta_0), "collective at the root [°]"),
         (1e3 * data.ct, "1000 C$_T$ [–]"),

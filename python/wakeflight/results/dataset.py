@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .._core import instruction_set
 from .attributes import flat_attributes
 from .errors import ResultsError
 from .schema import ATTRIBUTES, COORDINATES, LOOP, RUN, TRANSIENT, TRIM, TUNNEL, Variable
@@ -26,7 +27,7 @@ def assemble(arrays: Arrays, attributes: Mapping[str, Any]) -> xr.Dataset:
     the other coordinates are counted if not given. Checked: names, dimensions, shapes, finiteness and the
     required attributes. A run that failed is marked by `failure` in `attributes`: it gets `finished = 0`.
     """
-    marked = {"program_version": _program_version(), "failure": "", **attributes}
+    marked = {**_program(), "failure": "", **attributes}
     # netCDF has no truth values: 0 and 1
     marked["finished"] = int(marked.get("finished", not marked["failure"]))
     if not marked["finished"] and not marked["failure"]:
@@ -39,26 +40,26 @@ def assemble(arrays: Arrays, attributes: Mapping[str, Any]) -> xr.Dataset:
 
 def assemble_trim(arrays: Arrays, attributes: Mapping[str, Any]) -> xr.Dataset:
     """Dataset of one trim, from arrays by the names of the schema's `TRIM` table, checked like a run."""
-    marked = {"program_version": _program_version(), **attributes}
+    marked = {**_program(), **attributes}
     return _dataset(TRIM, arrays, marked, increasing=("azimuth", "station"))
 
 
 def assemble_tunnel(arrays: Arrays, attributes: Mapping[str, Any]) -> xr.Dataset:
     """Dataset of a rotor on a stand, from arrays by the names of the schema's `TUNNEL` table, checked like a run."""
-    marked = {"program_version": _program_version(), **attributes}
+    marked = {**_program(), **attributes}
     return _dataset(TUNNEL, arrays, marked, increasing=("azimuth", "station", "age", "revolution"))
 
 
 def assemble_transient(arrays: Arrays, attributes: Mapping[str, Any]) -> xr.Dataset:
     """Dataset of a transient on the stand, from arrays by the names of the schema's `TRANSIENT` table, checked like a run."""
-    marked = {"program_version": _program_version(), **attributes}
+    marked = {**_program(), **attributes}
     marked["finished"] = int(not marked.get("failure"))
     return _dataset(TRANSIENT, arrays, marked, increasing=("time", "station", "age"))
 
 
 def assemble_loop(arrays: Arrays, attributes: Mapping[str, Any]) -> xr.Dataset:
     """Dataset of a section in harmonic motion, from arrays by the names of the schema's `LOOP` table, checked like a run."""
-    marked = {"program_version": _program_version(), **attributes}
+    marked = {**_program(), **attributes}
     return _dataset(LOOP, arrays, marked, increasing=("phase",))
 
 
@@ -133,8 +134,10 @@ def _label(variable: Variable) -> dict[str, str]:
     return {"units": variable.units, "long_name": variable.long_name}
 
 
-def _program_version() -> str:
+def _program() -> dict[str, str]:
+    """What computed the run: version and the instruction set of its sums."""
     try:
-        return version("wakeflight")
+        program_version = version("wakeflight")
     except PackageNotFoundError:
-        return "unknown"
+        program_version = "unknown"
+    return {"program_version": program_version, "instruction_set": instruction_set()}

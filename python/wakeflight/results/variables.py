@@ -79,6 +79,7 @@ _ROWS = (
     ("power", "W", "engine power: main rotor, tail rotor and accessories"),
     ("ct", "1", "aerodynamic thrust coefficient of the main rotor along z_h, thrust over rho pi R^2 (Omega R)^2"),
     ("inflow_mean", "1", "area mean over the disk of the induced inflow v_i/(Omega R), positive down"),
+    ("rotor_speed", "rad/s", "speed of the main rotor where it changes in the run"),
     ("stabilator", "rad", "stabilator incidence, nose up positive"),
     ("odd_even", "1", "odd-even content of the wake in time: RMS second difference of its nodes, share of R"),
     ("max_displacement", "m", "largest displacement of a wake node in a step"),

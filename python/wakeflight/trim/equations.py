@@ -102,6 +102,6 @@ def dynamic_map(
     hub = model.core.hub(y)
     controls = x[: model.n_controls]
     circulation = np.array(
-        [model.core.section_circulation(hub, controls, (psi[k], q[k], q_dot[k]), inflow_map[k])[0] for k in range(n)]
+        [model.core.section_circulation(hub, controls, (psi[k], q[k], q_dot[k]), inflow_map[k]) for k in range(n)]
     )
     return inflow_map, circulation

@@ -70,9 +70,10 @@ def section_monitors(
     disk is a mean over.
     """
     tables = model.rotor_tables["airfoil"]
-    usual, bound = model.bounds.inflow(velocity, theta)
+    usual, bound = (each * model.top_share for each in model.bounds.inflow(velocity, theta))
     section = model.bounds.section(velocity, theta)
-    fastest = model.bounds.mach(*motion, section)
+    speed, rate = motion
+    fastest = model.bounds.mach(speed, rate + model.overspeed, section)
     angles, tip_mach = stall_along_span(tables, model.stations), model.tip_speed / model.speed_of_sound
     return [
         rotor.induced_velocity(fields["inflow"], usual, bound, places),
@@ -92,8 +93,8 @@ def closest_vortex(model: CompiledRotor, wake: WakeInTrim) -> float:
     radius, blade = model.rotor["radius"], model.rotor_tables["blade"]
     step = 2 * np.pi / model.steps_per_revolution
     return vortices.closest(
-        wake.relaxation.position(),
-        wake.relaxation.core_radius(),
+        wake.relaxation.lattice()[:, -1],
+        wake.relaxation.core_radius()[:, -1],
         wake.psi,
         model.n_blades,
         model.rotor["hinge_offset"],

@@ -13,6 +13,7 @@ from ..errors import InputError, NumericalFailure
 from ..inflow import DynamicInflow
 from ..progress import Progress, Silent
 from ..trim.equations import trim_problem
+from ..units import whole
 from .annular import check_axial, on_annuli
 from .condition import (
     StandCondition,
@@ -22,7 +23,6 @@ from .condition import (
     higher_harmonics,
     hub_velocity,
     rotor_speed,
-    whole,
     within,
 )
 from .model import StandInflow, StandModel, stand_inflow

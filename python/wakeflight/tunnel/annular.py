@@ -91,7 +91,7 @@ def inflow_of_rings(model: StandModel, problem: _core.TrimProblem, x: np.ndarray
 
     def excess(lam: np.ndarray) -> np.ndarray:
         passages = zip(psi, q, q_dot, strict=True)
-        lift = [core.section_circulation(hub, x[:3], (p, a, b), lam)[0] for p, a, b in passages]
+        lift = [core.section_circulation(hub, x[:3], (p, a, b), lam) for p, a, b in passages]
         through = np.abs(lam + climb)
         momentum = 4 * np.pi * tip_loss(model, r, through) * lam * through * tip_speed**2
         return momentum - model.n_blades * model.omega * np.mean(lift, axis=0)

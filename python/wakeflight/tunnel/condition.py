@@ -12,7 +12,7 @@ from .. import _core
 from .. import regime as regimes
 from ..aircraft import Rotor
 from ..errors import InputError
-from ..units import quantity, shown
+from ..units import number, quantity, shown
 
 BLADE_LOADING = 0.07
 """C_T/sigma of a rotor of which nothing is asked and whose file names no weight: that of cruise, well below stall."""
@@ -65,18 +65,11 @@ class StandCondition:
 
 def within(field: str, value: Any, si_unit: str, low: float, high: float, unit: str) -> float:
     """`value` in SI, refused outside low..high (SI; shown in `unit`)."""
-    number = quantity(value, si_unit, field)
+    found = quantity(value, si_unit, field)
     slack = 1e-12 * max(abs(low), abs(high))
-    if not low - slack <= number <= high + slack:
+    if not low - slack <= found <= high + slack:
         raise InputError.of(field, value, f"must lie between {shown(low, unit)} and {shown(high, unit)}")
-    return number
-
-
-def whole(field: str, value: Any, low: int, high: int) -> int:
-    """`value` if it is a whole number within low..high."""
-    if isinstance(value, bool) or not isinstance(value, int) or not low <= value <= high:
-        raise InputError.of(field, value, f"must be a whole number between {low} and {high}")
-    return value
+    return found
 
 
 def hub_velocity(speed: Any, shaft_angle: Any, climb: Any) -> tuple[float, float, float]:
@@ -193,7 +186,7 @@ def control_equations(rotor: Rotor, density: float, omega: float, asked: dict[st
         newtons = quantity(asked["thrust"], "N", "thrust")
         first = ("thrust", newtons)
     elif asked["ct"] is not None:
-        first = ("thrust", _number("ct", asked["ct"], -0.1, 0.1) * dynamic)
+        first = ("thrust", number("ct", asked["ct"], -0.1, 0.1) * dynamic)
     elif asked["torque"] is not None:
         text = asked["torque"]
         first = ("torque", 0.0 if text == "zero" else quantity(text, "N m", "torque"))
@@ -221,12 +214,6 @@ def control_equations(rotor: Rotor, density: float, omega: float, asked: dict[st
         for name in ("lateral_cyclic", "longitudinal_cyclic")
     )
     return (first, *angles)
-
-
-def _number(field: str, value: Any, low: float, high: float) -> float:
-    if isinstance(value, bool) or not isinstance(value, int | float) or not low <= value <= high:
-        raise InputError.of(field, value, f"must be a number between {low:g} and {high:g}")
-    return float(value)
 
 
 def _reference_twist(rotor: Rotor, at: Any) -> float:

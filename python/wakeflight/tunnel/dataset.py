@@ -33,7 +33,7 @@ def _path(stand: Solved) -> tuple[np.ndarray, np.ndarray] | None:
     if s.wake is None:
         return None
     if not stand.turns_kept:
-        position = s.wake.relaxation.position()
+        position = s.wake.relaxation.lattice()[:, -1]
         return position, np.zeros(position.shape[:2])
     rows = np.concatenate([turn.rows for turn in stand.turns_kept])
     path = np.concatenate([turn.path for turn in stand.turns_kept])
@@ -54,7 +54,7 @@ def _wake_arrays(stand: Solved) -> dict[str, np.ndarray]:
     else:
         rows = [b * n // stand.model.n_blades for b in range(stand.model.n_blades)]
         wake = path[rows]
-        strength = np.full(path.shape[1], np.mean(s.wake.relaxation.tip_circulation()))
+        strength = np.full(path.shape[1], np.mean(s.wake.relaxation.released_circulation()[:, -1]))
     return {
         "age": 2 * np.pi / n * np.arange(path.shape[1]),
         "wake": wake,

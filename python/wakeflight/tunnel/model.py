@@ -13,6 +13,7 @@ from .. import _core
 from ..aircraft import Rotor
 from ..inflow import STAND_MODELS, AnnularInflow, InflowModel, inflow_model
 from ..model import CompiledRotor, Question, resolution, setting
+from ..rotor_speed import Corners
 from .condition import StandCondition
 
 StandInflow = InflowModel | AnnularInflow
@@ -47,6 +48,8 @@ class StandModel(CompiledRotor):
     windmill: bool = False
     """Whether dynamic inflow takes the windmill brake state in descent: a result does, the start of a wake does not, since it
     must exist at any collective."""
+    rotor_speed: Corners = ()
+    """Time [s] and share of the nominal rotor speed; none at constant speed."""
     n_controls: ClassVar[int] = 3
 
     @classmethod

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..monitors import Monitor, failures, lines, warnings
 from ..results import save
+from ..rotor_speed import CONSTANT, RotorSpeed
 from .dataset import attributes, dataset
 from .monitors import monitors
 from .solved import Solved
@@ -58,23 +59,28 @@ class Tunnel(Solved):
         return failures(self.monitors)
 
     def transient(
-        self, collective: Sequence[Any], duration: Any, progress: Progress | Silent | None = None
+        self,
+        collective: Sequence[Any],
+        duration: Any,
+        progress: Progress | Silent | None = None,
+        rotor_speed: RotorSpeed = CONSTANT,
     ) -> xr.Dataset:
         """Move the collective in time from here on and follow rotor and wake: a Dataset over time.
 
         collective: pairs (time, collective at the root), text with units, linear between them and held after the last, from
         the stand's own collective of its last revolution at 0 s: a ramp of 200 deg/s is `[("0.035 s", "12 deg")]` from 5 deg.
-        duration: text.
+        duration: text. rotor_speed: `constant`, or pairs (time as text, share of the nominal speed), with inflow dynamic; ct and
+        cq are counted at the nominal speed.
 
         Every azimuth step the blades move by their own equations under the inflow held (Radau IIA), then circulation, wake
-        and inflow are exchanged as in flight, or the states of dynamic inflow carried on by the loads of the instant; cyclic,
-        wind and rotor speed stay. The stand itself is not changed. Needs inflow time-marching or dynamic.
+        and inflow are exchanged as in flight, or the states of dynamic inflow carried on by the loads of the instant; cyclic
+        and wind stay. The stand itself is not changed. Needs inflow time-marching or dynamic.
 
         Raises `InputError`, or `NumericalFailure` with what was computed in `.partial`.
         """
         from .transient import transient
 
-        return transient(self, self.attributes(), collective, duration, progress)
+        return transient(self, self.attributes(), collective, duration, progress, rotor_speed)
 
     @cached_property
     def data(self) -> xr.Dataset:

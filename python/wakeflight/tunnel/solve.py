@@ -16,7 +16,7 @@ from ..errors import NumericalFailure
 from ..exchange import Exchange
 from ..inflow import trim_model
 from ..progress import Progress, Silent
-from ..regime import REVOLUTIONS
+from ..regime import AXIAL, REVOLUTIONS
 from ..trim import on_wake
 from ..trim.equations import inflow_of_states, trim_problem, unmet, without_inflow
 from ..trim.on_wake import PeriodicWake, TrimOnWake
@@ -297,7 +297,7 @@ def solution(
     if not model.inflow.is_marching:
         return on_relaxation(model, start, StandOnWake(model, progress))
     relaxation = trim_model(model.inflow)
-    tumbling = model.condition.regime(model.tip_speed) != "forward" and model.inflow.trailers == "full-span"
+    tumbling = model.condition.regime(model.tip_speed) in AXIAL and model.inflow.is_full_span
     if tumbling:
         relaxation = replace(relaxation, **START)
     relaxed = StandModel.build(model.aircraft, model.condition, relaxation, model.n_harmonics, model.blade_model)

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -12,11 +13,15 @@ import numpy as np
 from ..errors import InputError, NumericalFailure
 from ..exchange import Exchange
 from ..integrators import FixedIntegrator
+from ..model import at_speed
 from ..monitors import Places, failures, rotor
 from ..progress import Progress, Silent
+from ..rotor_speed import CONSTANT, Clock, RotorSpeed, shares
+from ..rotor_speed import history as speed_history
 from ..stepping import Instant, Stepping
 from ..units import quantity
 from .condition import within
+from .model import StandModel
 from .solved import Solved
 
 if TYPE_CHECKING:
@@ -32,32 +37,47 @@ class History:
     """Change of collective over time, linear between its points and held after the last; it begins as the stand was.
 
     time [s], ascending from the start of the transient; collective at the root [rad]; cyclic: theta_1c, theta_1s [rad], held.
-    Over a coupling step (`step` [s], the transient begins after `first`) the collective is linear: its corners are met where
-    steps end.
+    Over a coupling step of `clock`, which has gone `first` steps where the transient begins, the collective is linear: its
+    corners are met where steps end.
     """
 
     time: np.ndarray
     collective: np.ndarray
     cyclic: np.ndarray
-    step: float
+    clock: Clock
     first: int
 
     def collective_after(self, steps: int) -> float:
         """Collective [rad] after `steps` steps of the clock."""
-        return float(np.interp((steps - self.first) * self.step, self.time, self.collective))
+        return float(np.interp(self.clock.time(steps - self.first), self.time, self.collective))
 
     def at(self, t: float) -> np.ndarray:
-        """Collective, cyclic and nothing for a tail rotor (4,) [rad] at time `t` [s], where a step ends."""
-        return np.array([self.collective_after(round(t / self.step)), *self.cyclic, 0.0])
+        """Collective, cyclic and nothing for a tail rotor (4,) [rad] at time `t` [s]."""
+        k, past = self._begun(t)
+        collective = self.collective_after(k)
+        if past:
+            collective += past * self._slope(k)
+        return np.array([collective, *self.cyclic, 0.0])
 
     def rate(self, t: float) -> np.ndarray:
-        """Their rates [rad/s] over the step that begins at `t`."""
-        k = round(t / self.step)
-        return np.array([(self.collective_after(k + 1) - self.collective_after(k)) / self.step, 0.0, 0.0, 0.0])
+        """Their rates [rad/s] over the step that begins at `t` or holds it."""
+        return np.array([self._slope(self._begun(t)[0]), 0.0, 0.0, 0.0])
 
     def pieces(self, t0: float, t1: float) -> list[tuple[float, float]]:
         """One."""
         return [(t0, t1)]
+
+    def _begun(self, t: float) -> tuple[int, float]:
+        """Steps of the clock begun at time `t` [s], and how long the last has gone on [s]; none where one begins."""
+        steps = self.clock.steps(0, t)
+        whole = round(steps)
+        if abs(steps - whole) < 1e-6:
+            return whole, 0.0
+        return math.floor(steps), t - self.clock.time(math.floor(steps))
+
+    def _slope(self, k: int) -> float:
+        """Rate of the collective [rad/s] over the step after `k`."""
+        return (self.collective_after(k + 1) - self.collective_after(k)) / self.clock.duration(k)
 
 
 def history(points: Sequence[Any], x: np.ndarray, run: OnStand) -> History:
@@ -83,14 +103,14 @@ def history(points: Sequence[Any], x: np.ndarray, run: OnStand) -> History:
         if t > 0.0:
             time.append(t)
             angle.append(theta)
-    return History(np.array(time), np.array(angle), x[1:3], run.delta_t, run.first)
+    return History(np.array(time), np.array(angle), x[1:3], run.clock, run.first)
 
 
 class Recorder:
     """What a transient leaves at every step."""
 
     def __init__(self, stand: Solved, run: OnStand) -> None:
-        self.stand, self.run = stand, run
+        self.stand, self.run, self.model = stand, run, run.model
         self.rows: dict[str, list[np.ndarray]] = {}
 
     @property
@@ -104,16 +124,16 @@ class Recorder:
 
     def record(self, at: Instant) -> None:
         """Keep one instant; end where it is beyond what the motion of the rotor can give."""
-        stand, model = self.stand, self.stand.model
+        stand, model = self.stand, self.model
         seen = model.core.outputs(at.t, at.y, at.y_dot, at.inputs)
         # on the stand y points to the advancing side, whichever way the rotor turns
         hand = model.rotor["hand"]
         thrust, torque = seen["aero_force"][2], -seen["aero_moment"][2] * hand
         flap, lead = model.core.equivalent_angles(np.ascontiguousarray(model.modal(at.y)[0]))
-        check(stand, seen, float(at.stick[0]))
+        check(stand, model, seen, float(at.stick[0]))
         scale = model.dynamic_pressure_area
         kept = {
-            "time": (at.step - self.run.first) * self.run.delta_t,
+            "time": self.run.clock.time(at.step - self.run.first),
             "theta_0": at.stick[0],
             "ct": thrust / scale,
             "cq": torque / (scale * stand.radius),
@@ -137,13 +157,14 @@ class Recorder:
 class OnStand(Stepping):
     """A solved rotor whose collective moves; the stand itself is not changed."""
 
-    def __init__(self, stand: Solved):
-        s, model = stand.solution, stand.model
+    model: StandModel
+
+    def __init__(self, stand: Solved, model: StandModel):
+        s = stand.solution
         # the clock that azimuths are read from goes on from the wake's
         self.first = 0 if s.march is None else s.march.step_index
         self.exchange = Exchange.dynamic(model) if s.march is None else s.march.copy()
-        step = 2 * np.pi / model.omega / model.steps_per_revolution
-        y, _ = model.core.trim_state(s.problem, s.x, self.first * step)
+        y, _ = model.core.trim_state(s.problem, s.x, model.clock.time(self.first))
         self._begin(model, FixedIntegrator(model), y, s.x[:3], self.first)
 
 
@@ -153,22 +174,26 @@ def transient(
     collective: Sequence[Any],
     duration: Any,
     progress: Progress | Silent | None = None,
+    rotor_speed: RotorSpeed = CONSTANT,
 ) -> xr.Dataset:
     """See `Tunnel.transient`."""
     from ..results import assemble_transient
 
-    solution, model = stand.solution, stand.model
+    solution, model = stand.solution, at_speed(stand.model, speed_history(rotor_speed))
     if solution.march is None and not model.inflow.is_dynamic:
         raise InputError.of("inflow", model.inflow.name, "a transient needs inflow time-marching or dynamic")
     if model.aircraft.discretisation.n_modes and not model.n_harmonics:
         raise InputError.of("n_harmonics", model.n_harmonics, "must be above 0")
-    run = OnStand(stand)
-    step, moved = run.delta_t, history(collective, solution.x, run)
+    run = OnStand(stand, model)
+    step, moved = model.clock.duration(0), history(collective, solution.x, run)
     length = within("duration", duration, "s", step, LONGEST * 2 * np.pi / model.omega, "s")
-    n_steps = int(np.ceil(length / step - 1e-9))
-    if moved.time[-1] > n_steps * step * (1.0 + 1e-9):
-        allowed = f"must not lie after the end of the transient at {n_steps * step:.6g} s: it would not be reached"
-        raise InputError.of("collective time", f"{moved.time[-1]:.12g} s", allowed)
+    n_steps = int(np.ceil(run.clock.steps(0, length) - 1e-9))
+    end = run.clock.time(n_steps)
+    ends = {"collective time": moved.time[-1], "rotor_speed time": max((t for t, _ in model.rotor_speed), default=0.0)}
+    for name, last in ends.items():
+        if last > end * (1.0 + 1e-9):
+            allowed = f"must not lie after the end of the transient at {end:.6g} s: it would not be reached"
+            raise InputError.of(name, f"{last:.12g} s", allowed)
     progress = progress or Silent()
     progress.phase("transient", n_steps)
     kept = Recorder(stand, run)
@@ -179,26 +204,29 @@ def transient(
             progress.advance(1, "")
         kept.record(run.instant(moved, ends=True))
     except ArithmeticError as reason:
-        failure = f"transient on the stand, t = {step * kept.n_recorded:.4f} s: {reason}"
+        failure = f"transient on the stand, t = {run.clock.time(kept.n_recorded):.4f} s: {reason}"
         if not kept.n_recorded:
             raise NumericalFailure(failure) from reason
     arrays = {**kept.arrays(), "station": model.stations / stand.radius}
     if "wake" in arrays:
         arrays["age"] = 2 * np.pi / model.steps_per_revolution * np.arange(arrays["wake"].shape[2])
+    if model.rotor_speed:
+        arrays["rotor_speed"] = model.omega * shares(model.rotor_speed, arrays["time"])
     data = assemble_transient(arrays, {**attributes, "failure": failure, "step": step})
     if failure:
         raise NumericalFailure(failure, partial=data)
     return data
 
 
-def check(stand: Solved, seen: dict[str, Any], collective: float) -> None:
-    """End where an instant is beyond what the motion of the rotor can give."""
-    model, condition = stand.model, stand.model.condition
+def check(stand: Solved, model: StandModel, seen: dict[str, Any], collective: float) -> None:
+    """End where an instant of `model` is beyond what the motion of the rotor can give."""
+    condition = model.condition
     velocity = np.asarray(condition.velocity) / model.tip_speed
     theta = [collective, stand.theta_1c, stand.theta_1s]
-    usual, bound = model.bounds.inflow(velocity, theta)
+    usual, bound = (each * model.top_share for each in model.bounds.inflow(velocity, theta))
     section = model.bounds.section(velocity, theta)
-    fastest = model.bounds.mach(np.linalg.norm(condition.velocity), np.linalg.norm(condition.rates), section)
+    speed, rate = np.linalg.norm(condition.velocity), np.linalg.norm(condition.rates) + model.overspeed
+    fastest = model.bounds.mach(speed, rate, section)
     places = Places(model.stations / stand.radius, np.asarray(seen["azimuth"]))
     watched = (
         rotor.induced_velocity(seen["inflow"], usual, bound, places),

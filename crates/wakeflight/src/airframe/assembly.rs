@@ -4,7 +4,7 @@ use super::fuselage::Fuselage;
 use super::interference::{FuselageWash, Interference};
 use super::mass::{AirframeMass, BladesAtHub, MassError, MassProperties};
 use super::tail::{StabilatorSchedule, Surface};
-use super::tail_rotor::TailRotor;
+use super::tail_rotor::{ClosedFormState, TailRotor};
 use crate::numerics::frames::{Body, Hub, Vec3};
 use crate::numerics::scalar::Real;
 use crate::rotor::sense::Sense;
@@ -48,7 +48,7 @@ pub struct RotorEffect<S: Copy> {
     pub hub_velocity: Vec3<S, Hub>,
     /// Longitudinal flapping, disk forward-down positive [rad].
     pub beta_1c: S,
-    /// Tip speed [m/s].
+    /// Nominal tip speed [m/s].
     pub tip_speed: f64,
 }
 
@@ -61,15 +61,6 @@ pub struct AirMotion<S> {
     pub rates: Vec3<S, Body>,
     /// Density [kg/m3].
     pub density: f64,
-}
-
-/// Pitch by the controls [rad] and inflow of a closed-form rotor.
-#[derive(Clone, Copy, Debug)]
-pub struct ClosedFormState<S> {
-    /// Pitch [rad].
-    pub theta: S,
-    /// Inflow.
-    pub inflow: S,
 }
 
 /// Air loads on the body origin.
@@ -189,7 +180,7 @@ impl Airframe {
         }
         for (tail_rotor, state) in closed {
             let local = fuselage_wash.at_tail_rotor(velocity) + swing(tail_rotor.position);
-            let loads = tail_rotor.evaluate(local, state.theta, state.inflow, density, velocity.x);
+            let loads = tail_rotor.evaluate(local, state, density, velocity.x);
             total.add(tail_rotor.position, loads.force);
             total.closed_power += loads.power;
             total.closed_inflow_rate.push(loads.lambda_i_dot);

@@ -13,7 +13,7 @@ pub struct TailRotor {
     pub position: [f64; 3],
     /// Radius [m].
     pub radius: f64,
-    /// Rotor speed [rad/s].
+    /// Nominal rotor speed [rad/s].
     pub omega: f64,
     /// Solidity.
     pub solidity: f64,
@@ -35,6 +35,17 @@ pub struct TailRotor {
     pub fin_blockage: [f64; 3],
 }
 
+/// Pitch by the controls, inflow and speed of a closed-form rotor.
+#[derive(Clone, Copy, Debug)]
+pub struct ClosedFormState<S> {
+    /// Pitch of the rigging [rad].
+    pub theta: S,
+    /// Induced velocity over the nominal tip speed.
+    pub inflow: S,
+    /// Speed over the nominal one.
+    pub speed_ratio: S,
+}
+
 /// Loads of the tail rotor on the airframe at its hub; its shaft torque is neglected.
 #[derive(Clone, Copy, Debug)]
 pub struct TailRotorLoads<S: Copy> {
@@ -49,28 +60,30 @@ pub struct TailRotorLoads<S: Copy> {
 }
 
 impl TailRotor {
-    /// Loads for the local velocity of the hub through the air [m/s], pitch of the rigging `theta_tr` [rad] and the
-    /// induced inflow ratio `lambda_i`; `forward_speed` [m/s] sets the blockage by the fin.
+    /// Loads for the local velocity of the hub through the air [m/s] and the rotor's state: pitch theta_tr, inflow lambda_i, speed;
+    /// `forward_speed` [m/s] sets the blockage by the fin.
     ///
     /// CT = (a sigma/2)[theta (B^3/3 + B mu^2/2) + theta_tw (B^4/4 + B^2 mu^2/4) - lambda (B^2/2 + mu^2/4)],
     /// theta = theta_tr + bias - pitch_per_thrust T (T before blockage; linear, solved), lambda = lambda_i + V n/(Omega R)
     /// with the thrust axis n, lambda_i_dot = Omega (3 pi/8)[CT - 2 lambda_i sqrt(mu^2 + lambda^2)],
     /// CP = lambda CT + sigma cd (1 + 4.6 mu^2)/8 with the polar at 6 CT/(a sigma) [howlett1981].
+    ///
+    /// All at the speed of the moment but for the state, which counts at the nominal one: momentum knows no speed of rotation.
     pub fn evaluate<S: Real>(
         &self,
         velocity: Vec3<S, Body>,
-        theta_tr: S,
-        lambda_i: S,
+        state: ClosedFormState<S>,
         density: f64,
         forward_speed: S,
     ) -> TailRotorLoads<S> {
-        let tip_speed = self.omega * self.radius;
+        let ClosedFormState { theta: theta_tr, inflow: lambda_i, speed_ratio } = state;
+        let (tip_speed, ratio_squared) = (self.omega * self.radius, speed_ratio * speed_ratio);
         let (sin_cant, cos_cant) = self.cant.sin_cos();
-        let axial = (velocity.y * cos_cant - velocity.z * sin_cant) / tip_speed;
-        let across = (velocity.y * sin_cant + velocity.z * cos_cant) / tip_speed;
-        let along = velocity.x / tip_speed;
+        let axial = (velocity.y * cos_cant - velocity.z * sin_cant) / tip_speed / speed_ratio;
+        let across = (velocity.y * sin_cant + velocity.z * cos_cant) / tip_speed / speed_ratio;
+        let along = velocity.x / tip_speed / speed_ratio;
         let mu_squared = along * along + across * across;
-        let lambda = lambda_i + axial;
+        let lambda = lambda_i / speed_ratio + axial;
 
         let b = self.tip_loss_factor;
         let by_pitch = mu_squared * (b / 2.0) + b.powi(3) / 3.0;
@@ -81,12 +94,14 @@ impl TailRotor {
         let uncoupled = ((theta_tr + self.pitch_bias) * by_pitch + by_twist * self.twist
             - lambda * by_inflow)
             * half_slope;
-        let ct = uncoupled / (by_pitch * (half_slope * self.pitch_per_thrust * thrust_unit) + 1.0);
+        let coning = by_pitch * (half_slope * self.pitch_per_thrust * thrust_unit);
+        let ct = uncoupled / (coning * ratio_squared + 1.0);
 
         // the small number keeps the root differentiable at rest
         let through = (mu_squared + lambda * lambda + 1e-16).sqrt();
-        let lambda_i_dot = (ct - lambda_i * through * 2.0) * (self.omega * 3.0 * PI / 8.0);
-        let thrust = ct * thrust_unit * self.blockage(forward_speed);
+        let drawn = lambda_i * (through * speed_ratio) * 2.0;
+        let lambda_i_dot = (ct * ratio_squared - drawn) * (self.omega * 3.0 * PI / 8.0);
+        let thrust = ct * thrust_unit * ratio_squared * self.blockage(forward_speed);
 
         let alpha = ct * (6.0 / (self.lift_curve_slope * self.solidity));
         let [d0, d1, d2] = self.cd_polar;
@@ -95,7 +110,7 @@ impl TailRotor {
         TailRotorLoads {
             force: Vec3::new(S::zero(), thrust * cos_cant, thrust * -sin_cant),
             thrust,
-            power: cp * (thrust_unit * tip_speed),
+            power: cp * (thrust_unit * tip_speed) * (ratio_squared * speed_ratio),
             lambda_i_dot,
         }
     }

@@ -49,6 +49,14 @@ pub struct ModalMotion<S> {
     pub q_ddot: [S; MAX_MODES],
 }
 
+impl ModalMotion<f64> {
+    /// Of coordinates and rates, one for each mode there is; not accelerated.
+    pub fn of(q: &[f64], q_dot: &[f64]) -> Self {
+        let filled = |values: &[f64]| std::array::from_fn(|i| values.get(i).copied().unwrap_or(0.0));
+        Self { q: filled(q), q_dot: filled(q_dot), q_ddot: [0.0; MAX_MODES] }
+    }
+}
+
 /// A pitch angle with two time derivatives [rad, rad/s, rad/s2].
 #[derive(Clone, Copy, Debug)]
 pub struct PitchMotion<S> {

@@ -7,7 +7,8 @@ use serde::Deserialize;
 use std::f64::consts::PI;
 
 /// Apparent mass of the uniform state, M11.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum ApparentMass {
     /// 128/(75 pi), of the corrected pressure distribution that carries no lift at the centre.
     Corrected,
@@ -29,7 +30,8 @@ pub enum MassFlow {
 }
 
 /// The model with its choices.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct PittPeters {
     /// Apparent mass.
     pub apparent_mass: ApparentMass,

@@ -57,6 +57,14 @@ pub struct Counters {
     pub halvings: u64,
 }
 
+impl Counters {
+    /// Residual evaluations, Jacobians, factorisations, Newton iterations, steps, halvings.
+    pub fn all(&self) -> [u64; 6] {
+        let (found, solved) = (self.residual_evaluations, self.newton_iterations);
+        [found, self.jacobians, self.factorisations, solved, self.steps, self.halvings]
+    }
+}
+
 /// Where dF/dy was found: enough to find it again.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 struct Origin {
@@ -193,7 +201,7 @@ impl FixedStep {
     pub fn recall(&mut self, system: &System, memory: FixedMemory) {
         self.linearised_at = memory.origin.as_ref().map(|o| o.t);
         if let Some(o) = &memory.origin {
-            self.linear.renew(system, &Instant { t: o.t, y: &o.y, y_dot: &o.y_dot, inputs: &o.inputs });
+            self.linear.renew(system, &Instant { t: o.t, y: &o.y, y_dot: &o.y_dot, inputs: &o.inputs }, true);
         }
         (self.t, self.y, self.y_dot) = (memory.t, memory.y, memory.y_dot);
         (self.origin, self.rates, self.last_step) = (memory.origin, memory.rates, memory.last_step);
@@ -203,22 +211,21 @@ impl FixedStep {
     /// Finds the rate that satisfies F = 0 with `inputs` from now on, and linearises where dF/dy is too old.
     pub fn prepare(&mut self, system: &System, inputs: &Inputs) -> Result<(), StepFailure> {
         // a hair more, so that two steps of ten degrees count as twenty
-        let kept = (1.0 + 1e-6) * self.kept / system.main().omega;
-        let renew = self.linearised_at.is_none_or(|t| self.t - t > kept);
+        let kept = (1.0 + 1e-6) * self.kept;
+        let rotor = system.main();
+        let renew = self.linearised_at.is_none_or(|t| rotor.turned(self.t) - rotor.turned(t) > kept);
         self.find_rate(system, inputs, renew)
     }
 
     /// The rate at the present state, with dF/dy there (`renew`) or as it was.
     fn find_rate(&mut self, system: &System, inputs: &Inputs, renew: bool) -> Result<(), StepFailure> {
         let (t, y, y_dot) = (self.t, &self.y, &mut self.y_dot);
-        let solved = if renew {
+        if renew {
             self.linearised_at = Some(t);
             self.origin = Some(Origin { t, y: y.clone(), y_dot: y_dot.clone(), inputs: inputs.clone() });
             self.counters.jacobians += 1;
-            self.linear.consistent(system, (t, y), y_dot, inputs)
-        } else {
-            self.linear.consistent_by_mass(system, (t, y), y_dot, inputs)
-        };
+        }
+        let solved = self.linear.consistent(system, (t, y), y_dot, inputs, renew);
         self.counters.residual_evaluations += 1;
         self.factored = None;
         if solved.is_err() {

@@ -22,42 +22,27 @@ impl Linearised {
         Self { mass: Factor::new(&slopes), slopes, f: vec![0.0; layout.len()] }
     }
 
-    /// Linearises at an instant.
-    pub fn renew(&mut self, system: &System, at: &Instant<f64>) {
-        system.slopes(at, &mut self.slopes);
+    /// Finds dF/dy_dot at an instant, and dF/dy (`whole`) or leaves that as it was.
+    pub fn renew(&mut self, system: &System, at: &Instant<f64>, whole: bool) {
+        if whole {
+            system.slopes(at, &mut self.slopes);
+        } else {
+            system.mass_slopes(at, &mut self.slopes);
+        }
     }
 
-    /// Finds dF/dy_dot at an instant; dF/dy is left as it was.
-    pub fn renew_mass(&mut self, system: &System, at: &Instant<f64>) {
-        system.mass_slopes(at, &mut self.slopes);
-    }
-
-    /// Finds dF/dy_dot at (t, y), leaves dF/dy as it was, and corrects `y_dot` as `consistent` does.
-    pub fn consistent_by_mass(
-        &mut self,
-        system: &System,
-        (t, y): (f64, &[f64]),
-        y_dot: &mut [f64],
-        inputs: &Inputs,
-    ) -> Result<(), Singular> {
-        let at = Instant { t, y, y_dot, inputs };
-        self.renew_mass(system, &at);
-        self.correct(system, &at)?;
-        self.take_off(y_dot);
-        Ok(())
-    }
-
-    /// Linearises at (t, y) and corrects `y_dot` so that F = 0: F is linear in it and the matrix is that of this state,
-    /// so one correction is exact. Fails where the mass matrix is singular, which no blade with mass has.
+    /// Renews the derivatives at (t, y) and corrects `y_dot` so that F = 0: F is linear in it and dF/dy_dot is that of this
+    /// state, so one correction is exact. Fails where the mass matrix is singular, which no blade with mass has.
     pub fn consistent(
         &mut self,
         system: &System,
         (t, y): (f64, &[f64]),
         y_dot: &mut [f64],
         inputs: &Inputs,
+        whole: bool,
     ) -> Result<(), Singular> {
         let at = Instant { t, y, y_dot, inputs };
-        self.renew(system, &at);
+        self.renew(system, &at, whole);
         self.correct(system, &at)?;
         self.take_off(y_dot);
         Ok(())

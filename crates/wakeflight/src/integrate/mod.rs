@@ -5,3 +5,4 @@ pub mod explicit;
 pub mod fixed;
 pub mod linearised;
 pub mod radau;
+pub mod steps;

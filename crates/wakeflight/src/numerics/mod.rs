@@ -1,7 +1,8 @@
-//! Scalars and duals, frames and vectors, tables, small linear systems, wide vectors.
+//! Scalars and duals, frames and vectors, tables, small linear systems, wide vectors and their instruction set.
 pub mod elliptic;
 pub mod four;
 pub mod frames;
+pub mod instruction_set;
 pub mod jacobian;
 pub mod linear;
 pub mod scalar;

@@ -3,6 +3,8 @@
 //! The compiler takes an array of derivatives apart and puts few of its operations back into vectors; named vectors make
 //! the same equations five times faster. Products and sums are never contracted: every instruction set gives the same bits.
 
+#[cfg(target_arch = "x86_64")]
+use super::instruction_set::InstructionSet;
 use super::scalar::Real;
 use pulp::bytemuck::{cast_slice, cast_slice_mut};
 use pulp::{Scalar, Simd, WithSimd};
@@ -213,7 +215,7 @@ pub use x86::differentiate;
 
 #[cfg(target_arch = "x86_64")]
 mod x86 {
-    use super::{DIRECTIONS, In, Known, Task};
+    use super::{DIRECTIONS, In, InstructionSet, Known, Task};
     use pulp::x86::{V3, V4};
     use pulp::{Scalar, Simd};
     use std::marker::PhantomData;
@@ -242,11 +244,14 @@ mod x86 {
         }
     }
 
-    /// Runs `task` in the widest instruction set of the machine.
+    /// Runs `task` in the instruction set in use.
     pub fn differentiate<T: Task>(task: T) -> T::Output {
-        if let Some(simd) = V4::try_new() {
+        let set = InstructionSet::in_use();
+        let wide = if set == InstructionSet::Avx512 { V4::try_new() } else { None };
+        let narrow = if set == InstructionSet::Vector { V3::try_new() } else { None };
+        if let Some(simd) = wide {
             Simd::vectorize(simd, In::<V4, { DIRECTIONS / 8 }, T>(task, PhantomData))
-        } else if let Some(simd) = V3::try_new() {
+        } else if let Some(simd) = narrow {
             Simd::vectorize(simd, In::<V3, { DIRECTIONS / 4 }, T>(task, PhantomData))
         } else {
             Scalar.vectorize(In::<Scalar, DIRECTIONS, T>(task, PhantomData))

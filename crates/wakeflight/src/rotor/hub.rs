@@ -3,6 +3,7 @@
 use super::data::RotorData;
 use super::lag_damper::LagDamper;
 use super::sense::Sense;
+use super::speed::{RotorSpeed, Turning};
 use super::swashplate::{BladePitch, PitchHarmonic, Rigging};
 use crate::airfoil::span::StationAirfoils;
 use crate::blade::MAX_MODES;
@@ -37,8 +38,10 @@ pub struct Rotor {
     pub rigging: Rigging,
     /// Higher harmonics of the pitch.
     pub higher: Vec<PitchHarmonic>,
-    /// Rotor speed [rad/s], positive in the sense of `sense`.
+    /// Nominal speed [rad/s], positive in the sense of `sense`: what is counted without dimension is counted at it.
     pub omega: f64,
+    /// Speed in time.
+    pub speed: RotorSpeed,
     /// Sense of rotation: what is said of hub axes is said of its twin's.
     pub sense: Sense,
     /// Hub centre from the body origin [m].
@@ -66,6 +69,7 @@ impl Rotor {
             higher: Vec::new(),
             sense: data.rotation,
             omega: data.omega,
+            speed: RotorSpeed::Constant,
             position: data.position,
             shaft_tilt: [data.shaft_tilt_forward, data.shaft_tilt_lateral],
         })
@@ -77,17 +81,50 @@ impl Rotor {
         rot_hb(self.shaft_tilt[0], self.shaft_tilt[1])
     }
 
-    /// Tip speed [m/s].
+    /// Nominal tip speed [m/s].
     pub fn tip_speed(&self) -> f64 {
         self.omega * self.blade.radius
     }
 
-    /// Pitch of a blade at azimuth `psi` [rad] for controls that move at constant rates, with exact rates.
+    /// Azimuth of the first blade [rad] at time `t` [s].
     #[inline(always)]
-    pub fn blade_pitch<U: Real>(&self, stick: [U; 4], stick_rate: [U; 4], psi: f64) -> BladePitch<U> {
-        let mut pitch = self.rigging.blade_pitch(stick, stick_rate, U::cst(psi), self.omega);
+    pub fn turned(&self, t: f64) -> f64 {
+        match &self.speed {
+            RotorSpeed::Constant => self.omega * t,
+            RotorSpeed::Prescribed(history) => history.azimuth(t),
+        }
+    }
+
+    /// Time [s] at which the first blade has turned by `psi` [rad].
+    pub fn time(&self, psi: f64) -> f64 {
+        match &self.speed {
+            RotorSpeed::Constant => psi / self.omega,
+            RotorSpeed::Prescribed(history) => history.time(psi),
+        }
+    }
+
+    /// Speed and its rate at time `t` of a step that began at `begin` [s].
+    #[inline(always)]
+    pub fn turning(&self, t: f64, begin: f64) -> Turning {
+        match &self.speed {
+            RotorSpeed::Constant => Turning::steady(self.omega),
+            RotorSpeed::Prescribed(history) => history.turning(t, begin),
+        }
+    }
+
+    /// Pitch of a blade at azimuth `psi` [rad] of a rotor that is `turning`, for controls that move at constant rates, with exact
+    /// rates.
+    #[inline(always)]
+    pub fn blade_pitch<U: Real>(
+        &self,
+        stick: [U; 4],
+        stick_rate: [U; 4],
+        psi: f64,
+        turning: Turning<U>,
+    ) -> BladePitch<U> {
+        let mut pitch = self.rigging.blade_pitch(stick, stick_rate, U::cst(psi), turning);
         for harmonic in &self.higher {
-            harmonic.add_to(&mut pitch, psi, self.omega);
+            harmonic.add_to(&mut pitch, psi, turning);
         }
         pitch
     }

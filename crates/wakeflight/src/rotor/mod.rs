@@ -9,4 +9,5 @@ pub mod passages;
 pub mod periodic;
 pub mod periodic_slopes;
 pub mod sense;
+pub mod speed;
 pub mod swashplate;

@@ -1,5 +1,6 @@
 //! Blade pitch from the pilot's sticks.
 
+use super::speed::Turning;
 use crate::blade::kinematics::PitchMotion;
 use crate::numerics::scalar::Real;
 use serde::Deserialize;
@@ -45,15 +46,17 @@ pub struct PitchHarmonic {
 }
 
 impl PitchHarmonic {
-    /// Adds this harmonic at azimuth `psi` [rad] of a rotor turning at `omega` [rad/s].
+    /// Adds this harmonic at azimuth `psi` [rad] of a rotor that is `turning`.
     #[inline(always)]
-    pub fn add_to<S: Real>(&self, pitch: &mut BladePitch<S>, psi: f64, omega: f64) {
-        let w = self.order as f64 * omega;
-        let (s, c) = (self.order as f64 * psi).sin_cos();
+    pub fn add_to<S: Real>(&self, pitch: &mut BladePitch<S>, psi: f64, turning: Turning<S>) {
+        let order = self.order as f64;
+        let w = turning.omega * order;
+        let (s, c) = (order * psi).sin_cos();
         let value = self.cosine * c + self.sine * s;
+        let by_angle = self.sine * c - self.cosine * s;
         pitch.theta += S::cst(value);
-        pitch.theta_dot += S::cst((self.sine * c - self.cosine * s) * w);
-        pitch.theta_ddot += S::cst(-value * w * w);
+        pitch.theta_dot += w * by_angle;
+        pitch.theta_ddot += w * -value * w + turning.omega_dot * (order * by_angle);
     }
 }
 
@@ -81,7 +84,7 @@ impl<S: Real> PitchSeries<'_, S> {
             theta_ddot: -(cyclic * (omega * omega)),
         };
         for harmonic in self.higher {
-            harmonic.add_to(&mut pitch, psi, omega);
+            harmonic.add_to(&mut pitch, psi, Turning::steady(omega));
         }
         pitch
     }
@@ -114,7 +117,7 @@ impl Rigging {
 
     /// Root pitch of the blade at azimuth `psi` [rad] for sticks that move at constant rate.
     ///
-    /// theta = theta_0 + theta_1c cos(psi + D) + theta_1s sin(psi + D), psi_dot = `omega` [rad/s] constant;
+    /// theta = theta_0 + theta_1c cos(psi + D) + theta_1s sin(psi + D), psi_dot and its rate those of `turning`;
     /// stick histories are piecewise linear, so the sticks have no second derivative between their corners.
     #[inline(always)]
     pub fn blade_pitch<S: Real>(
@@ -122,16 +125,19 @@ impl Rigging {
         stick: [S; 4],
         stick_rate: [S; 4],
         psi: S,
-        omega: f64,
+        turning: Turning<S>,
     ) -> BladePitch<S> {
         let [theta_1c, theta_1s, theta_0, _] = self.pitch(stick);
         let [rate_1c, rate_1s, rate_0, _] = self.pitch_rate(stick_rate);
         let (s, c) = (psi + self.phase).sin_cos();
+        let Turning { omega, omega_dot } = turning;
         let cyclic = theta_1c * c + theta_1s * s;
+        let by_angle = theta_1s * c - theta_1c * s;
         BladePitch {
             theta: theta_0 + cyclic,
-            theta_dot: rate_0 + rate_1c * c + rate_1s * s + (theta_1s * c - theta_1c * s) * omega,
-            theta_ddot: (rate_1s * c - rate_1c * s) * (2.0 * omega) - cyclic * (omega * omega),
+            theta_dot: rate_0 + rate_1c * c + rate_1s * s + by_angle * omega,
+            theta_ddot: (rate_1s * c - rate_1c * s) * (omega * 2.0) - cyclic * (omega * omega)
+                + by_angle * omega_dot,
         }
     }
 }
@@ -189,10 +195,11 @@ mod tests {
         let r = rigging();
         let stick = [0.12, 0.10, 0.14, 0.05];
         let rate = [0.3, -0.2, 0.25, 0.1];
-        let (omega, psi0) = (27.0, 1.1);
+        let (omega, omega_dot, psi0) = (27.0, -4.0, 1.1);
         let at = |t: f64| {
+            let turning = Turning { omega: omega + omega_dot * t, omega_dot };
             let moved = std::array::from_fn(|i| stick[i] + rate[i] * t);
-            r.blade_pitch::<f64>(moved, rate, psi0 + omega * t, omega)
+            r.blade_pitch::<f64>(moved, rate, psi0 + t * (omega + 0.5 * omega_dot * t), turning)
         };
         let h = 1e-5;
         let (now, before, after) = (at(0.0), at(-h), at(h));
@@ -207,7 +214,10 @@ mod tests {
         let [theta_1c, theta_1s, theta_0, _] = r.pitch::<f64>(stick);
         let series = PitchSeries { theta_0, theta_1c, theta_1s, higher: &[] };
         for psi in [0.0, 0.7, 2.9, 5.1] {
-            let (a, b) = (r.blade_pitch::<f64>(stick, [0.0; 4], psi, 27.0), series.at(psi + r.phase, 27.0));
+            let (a, b) = (
+                r.blade_pitch::<f64>(stick, [0.0; 4], psi, Turning::steady(27.0)),
+                series.at(psi + r.phase, 27.0),
+            );
             assert!((a.theta - b.theta).abs() < 1e-14 && (a.theta_dot - b.theta_dot).abs() < 1e-12);
             assert!((a.theta_ddot - b.theta_ddot).abs() < 1e-10);
         }
@@ -229,11 +239,17 @@ mod tests {
         let r = rigging();
         let x = [0.12, 0.10, 0.14, 0.05, 0.3, -0.2, 0.25, 0.1, 2.3];
         let f = |x: [f64; 9]| {
-            let p = r.blade_pitch([x[0], x[1], x[2], x[3]], [x[4], x[5], x[6], x[7]], x[8], 27.0);
+            let p = r.blade_pitch(
+                [x[0], x[1], x[2], x[3]],
+                [x[4], x[5], x[6], x[7]],
+                x[8],
+                Turning::steady(27.0),
+            );
             [p.theta, p.theta_dot, p.theta_ddot]
         };
         let d: [Dual<9>; 9] = std::array::from_fn(|i| Dual::variable(x[i], i));
-        let p = r.blade_pitch([d[0], d[1], d[2], d[3]], [d[4], d[5], d[6], d[7]], d[8], 27.0);
+        let p =
+            r.blade_pitch([d[0], d[1], d[2], d[3]], [d[4], d[5], d[6], d[7]], d[8], Turning::steady(27.0));
         for i in 0..9 {
             let h = 1e-6;
             let (mut up, mut down) = (x, x);

@@ -3,7 +3,7 @@
 use super::layout::{Layout, body_vector};
 use crate::airframe::assembly::Airframe;
 use crate::blade::hub_motion::HubMotion;
-use crate::numerics::frames::{Body, Inertial, Vec3, rot_ib};
+use crate::numerics::frames::{Body, Hub, Inertial, Vec3, rot_ib};
 use crate::numerics::scalar::Real;
 use crate::rotor::hub::Rotor;
 
@@ -34,6 +34,16 @@ impl Carrier {
         }
     }
 
+    /// Velocity of a `wind` at the hub of `rotor` as its sense of rotation has it [m/s]; components in inertial axes of an airframe with
+    /// the states y, in hub axes of a stand.
+    #[inline(always)]
+    pub fn wind_at_hub<S: Real>(&self, rotor: &Rotor, y: &[S], wind: [S; 3]) -> Vec3<S, Hub> {
+        rotor.sense.polar(match self {
+            Self::Airframe(_) => rotor.rot_hb::<S>() * wind_b(y, wind),
+            Self::Stand(_) => Vec3::from_array(wind),
+        })
+    }
+
     /// Motion of the hub of `rotor` in the states y, with gravity [m/s2] as an acceleration.
     #[inline(always)]
     pub fn hub_motion<S: Real>(&self, rotor: &Rotor, y: &[S], y_dot: &[S], gravity: f64) -> HubMotion<S> {
@@ -53,6 +63,12 @@ impl Carrier {
             }),
         }
     }
+}
+
+/// A wind of inertial components [m/s] in body axes of an airframe with the states y.
+#[inline(always)]
+pub fn wind_b<S: Real>(y: &[S], wind: [S; 3]) -> Vec3<S, Body> {
+    rot_ib([y[6], y[7], y[8], y[9]]).transposed() * Vec3::<S, Inertial>::from_array(wind)
 }
 
 /// Gravity [m/s2] in body axes of an airframe with the states y.

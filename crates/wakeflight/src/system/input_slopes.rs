@@ -1,8 +1,11 @@
-//! Exact derivatives of F by what acts: controls, their rates, stabilator, held inflow.
+//! Exact derivatives of F by what acts: controls, their rates, stabilator, held inflow, wind, speed of the rotors.
+//!
+//! The speed is differentiated at the azimuths that the blades have: an azimuth of its own is not among what acts.
 
-use super::instant::{HeldInflow, Inputs, Instant};
+use super::instant::{Disturbance, HeldInflow, Inputs, Instant};
 use super::model::System;
 use crate::numerics::scalar::{Dual, Real};
+use thiserror::Error;
 
 /// Directions carried at once.
 const LANES: usize = 16;
@@ -17,6 +20,11 @@ pub struct InputSlopes {
     pub values: Vec<f64>,
 }
 
+/// Thin sections hold two inflows and have no derivatives by them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[error("held inflow of thin sections: F has no derivatives by it")]
+pub struct ThinInflow;
+
 /// Every number of what acts, in the order of the columns; disk means follow the stations they are of.
 fn numbers<U>(inputs: &mut Inputs<U>) -> Vec<&mut U> {
     let mut all: Vec<&mut U> = inputs.stick.iter_mut().chain(inputs.stick_rate.iter_mut()).collect();
@@ -27,10 +35,14 @@ fn numbers<U>(inputs: &mut Inputs<U>) -> Vec<&mut U> {
             all.push(mean);
         }
     }
+    if let Some(disturbance) = &mut inputs.disturbance {
+        all.extend(disturbance.wind.iter_mut().chain(disturbance.speed.as_flattened_mut()));
+    }
     all
 }
 
-fn constant(inputs: &Inputs) -> Inputs<D> {
+/// Without derivatives; a disturbance that is none where there is none, to be differentiated by.
+fn constant(inputs: &Inputs, n_rotors: usize) -> Inputs<D> {
     let inflow = inputs.inflow.iter().map(|held| match held {
         HeldInflow::Dynamic => HeldInflow::Dynamic,
         HeldInflow::Vacuum => HeldInflow::Vacuum,
@@ -38,18 +50,29 @@ fn constant(inputs: &Inputs) -> Inputs<D> {
             HeldInflow::Stations { inflow: inflow.iter().map(|&v| D::cst(v)).collect(), mean: D::cst(*mean) }
         }
     });
+    let disturbance = match &inputs.disturbance {
+        None => Disturbance { wind: [D::zero(); 3], speed: vec![[D::zero(); 2]; n_rotors] },
+        Some(d) => {
+            Disturbance { wind: d.wind.map(D::cst), speed: d.speed.iter().map(|s| s.map(D::cst)).collect() }
+        }
+    };
     Inputs {
         stick: inputs.stick.map(D::cst),
         stick_rate: inputs.stick_rate.map(D::cst),
         t_start: inputs.t_start,
         inflow: inflow.collect(),
         stabilator_incidence: D::cst(inputs.stabilator_incidence),
+        disturbance: Some(disturbance),
     }
 }
 
 impl System {
-    /// dF/du at an instant. Held inflow on a lifting line: thin sections are not differentiated by theirs.
-    pub fn input_slopes(&self, at: &Instant<f64>) -> InputSlopes {
+    /// dF/du at an instant: controls, their rates, stabilator, held inflow, wind, speed of every rotor and its rate.
+    pub fn input_slopes(&self, at: &Instant<f64>) -> Result<InputSlopes, ThinInflow> {
+        let held = |r: usize| matches!(at.inputs.inflow[r], HeldInflow::Stations { .. });
+        if self.each_rotor().any(|(r, rotor, _)| rotor.thin.is_some() && held(r)) {
+            return Err(ThinInflow);
+        }
         let lifted = |v: &[f64]| -> Vec<D> { v.iter().map(|&x| D::cst(x)).collect() };
         let (y, y_dot) = (lifted(at.y), lifted(at.y_dot));
         let names = self.input_names(at.inputs);
@@ -58,7 +81,7 @@ impl System {
         let mut f = vec![D::zero(); n];
         for first in (0..columns).step_by(LANES) {
             let lanes = LANES.min(columns - first);
-            let mut inputs = constant(at.inputs);
+            let mut inputs = constant(at.inputs, self.rotors.len());
             for (lane, number) in numbers(&mut inputs)[first..first + lanes].iter_mut().enumerate() {
                 number.eps[lane] = 1.0;
             }
@@ -67,7 +90,7 @@ impl System {
                 row[first..first + lanes].copy_from_slice(&value.eps[..lanes]);
             }
         }
-        InputSlopes { names, values }
+        Ok(InputSlopes { names, values })
     }
 
     fn input_names(&self, inputs: &Inputs) -> Vec<(String, &'static str)> {
@@ -90,6 +113,12 @@ impl System {
                 names.extend((0..inflow.len()).map(of));
                 names.push((format!("rotor.{}.inflow_mean", l.name), "1"));
             }
+        }
+        let wind = if self.layout.free { ["north", "east", "down"] } else { ["x", "y", "z"] };
+        names.extend(wind.map(|axis| (format!("wind_{axis}"), "m/s")));
+        for (_, _, l) in self.each_rotor() {
+            names.push((format!("rotor.{}.speed", l.name), "rad/s"));
+            names.push((format!("rotor.{}.speed_rate", l.name), "rad/s2"));
         }
         names
     }

@@ -52,6 +52,16 @@ pub enum HeldInflow<U = f64> {
     Vacuum,
 }
 
+/// What derivatives are taken by besides the inputs that are held.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+pub struct Disturbance<U = f64> {
+    /// Velocity of the air [m/s], the same everywhere and always: inertial axes (north, east, down) of an airframe, hub axes of a
+    /// stand.
+    pub wind: [U; 3],
+    /// What every rotor with blades turns faster than its own speed has it [rad/s], and the rate of that [rad/s2].
+    pub speed: Vec<[U; 2]>,
+}
+
 /// What acts on the system over one coupling step.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct Inputs<U = f64> {
@@ -66,6 +76,9 @@ pub struct Inputs<U = f64> {
     pub inflow: Vec<HeldInflow<U>>,
     /// Stabilator incidence [rad].
     pub stabilator_incidence: U,
+    /// Wind and excess speed of the rotors at the azimuths they have; none in flight: F has their derivatives, dF/dy does not know
+    /// them.
+    pub disturbance: Option<Disturbance<U>>,
 }
 
 impl<U: Real> Inputs<U> {

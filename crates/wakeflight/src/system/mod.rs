@@ -1,4 +1,5 @@
 //! One system: a carrier with a list of rotors. F(y_dot, y, u; t) = 0, its derivatives, its trim, its exchange with the wake.
+pub mod blades;
 pub mod carrier;
 pub mod data;
 pub mod input_slopes;

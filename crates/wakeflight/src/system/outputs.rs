@@ -86,7 +86,7 @@ impl System {
 
     fn rotor_outputs(&self, r: usize, at: &Instant<f64>) -> (RotorOutputs, RotorShare<f64>) {
         let rotor = &self.rotors[r];
-        let hub = self.hub_motion(r, at.y, at.y_dot);
+        let hub = self.felt_hub(r, (at.t, at.y), at.inputs, self.hub_motion(r, at.y, at.y_dot));
         let loads = self.rotor_loads(r, at, &hub, |_, _| ());
         let [beta_1c, beta_1s] = self.flap_multiblade(r, at.t, at.y);
         let sense = rotor.sense;
@@ -98,7 +98,7 @@ impl System {
             ct: rotor.aero_coefficients(self.air, loads.aero_force, loads.aero_moment)[0],
             beta_1c,
             beta_1s,
-            power: -loads.moment.z * rotor.omega,
+            power: -loads.moment.z * rotor.turning(at.t, at.inputs.t_start).omega,
             ..RotorOutputs::default()
         };
         for b in 0..rotor.n_blades {

@@ -1,11 +1,12 @@
 //! F(y_dot, y, u; t): forces and moments on the carrier, blade modes, kinematics, inflow.
 
-use super::carrier::{Carrier, gravity_b};
+use super::carrier::{Carrier, gravity_b, wind_b};
 use super::instant::{Acting, Instant};
 use super::layout::{Layout, body_vector};
 use super::model::System;
 use super::rotor_loads::{RotorLoads, RotorShare, blade_rows};
-use crate::airframe::assembly::{AirLoads, AirMotion, Airframe, ClosedFormState, RotorEffect};
+use crate::airframe::assembly::{AirLoads, AirMotion, Airframe, RotorEffect};
+use crate::airframe::tail_rotor::ClosedFormState;
 use crate::numerics::frames::{Body, Vec3, rot_ib};
 use crate::numerics::scalar::Real;
 
@@ -33,6 +34,10 @@ pub struct Settings<'a, S> {
     pub closed_pitch: S,
     /// Their inflow states.
     pub closed_inflow: &'a [S],
+    /// Their speed over the nominal one: they are geared to the first rotor.
+    pub closed_speed: S,
+    /// Velocity of the air, body axes [m/s]; none where it is still.
+    pub wind: Option<Vec3<S, Body>>,
 }
 
 impl System {
@@ -40,7 +45,7 @@ impl System {
     pub fn residual<S: Real, U: Acting<S>>(&self, at: &Instant<S, U>, f: &mut [S]) {
         let mut shares = Vec::with_capacity(self.rotors.len());
         for (r, rotor, l) in self.each_rotor() {
-            let hub = self.hub_motion(r, at.y, at.y_dot);
+            let hub = self.felt_hub(r, (at.t, at.y), at.inputs, self.hub_motion(r, at.y, at.y_dot));
             let mut loads = RotorLoads::zero();
             for b in 0..rotor.n_blades {
                 let blade = self.blade_loads(r, at, &hub, b);
@@ -56,7 +61,7 @@ impl System {
     pub fn residual_of_four(&self, at: &Instant<f64>, f: &mut [f64]) {
         let mut shares = Vec::with_capacity(self.rotors.len());
         for (r, _, l) in self.each_rotor() {
-            let hub = self.hub_motion(r, at.y, at.y_dot);
+            let hub = self.felt_hub(r, (at.t, at.y), at.inputs, self.hub_motion(r, at.y, at.y_dot));
             let loads = self.rotor_loads(r, at, &hub, |b, blade| blade_rows(l, b, blade, at, f));
             shares.push(RotorShare { loads, beta_1c: self.flap_multiblade(r, at.t, at.y)[0] });
         }
@@ -79,6 +84,8 @@ impl System {
             stabilator_incidence: at.inputs.stabilator_incidence.felt(),
             closed_pitch: pitch[3],
             closed_inflow: &at.y[self.layout.closed_inflow()],
+            closed_speed: self.speed_ratio(0, at.t, at.inputs),
+            wind: at.inputs.disturbance.as_ref().map(|d| wind_b(at.y, d.wind.map(Acting::felt))),
         };
         self.loads_on_airframe(airframe, at.y, shares, &settings)
     }
@@ -91,8 +98,11 @@ impl System {
         shares: &[RotorShare<S>],
         settings: &Settings<S>,
     ) -> AirframeLoads<S> {
-        let velocity = body_vector(y, Layout::VELOCITY);
+        let mut velocity = body_vector(y, Layout::VELOCITY);
         let rates = body_vector(y, Layout::RATES);
+        if let Some(wind) = settings.wind {
+            velocity = velocity - wind;
+        }
         let rotor = self.main();
         let effect = RotorEffect {
             mean_inflow: settings.mean_inflow,
@@ -102,8 +112,8 @@ impl System {
         };
         let motion = AirMotion { velocity, rates, density: self.air.density };
         let closed = self.closed.iter().zip(settings.closed_inflow);
-        let closed =
-            closed.map(|(rotor, &inflow)| (rotor, ClosedFormState { theta: settings.closed_pitch, inflow }));
+        let (theta, speed_ratio) = (settings.closed_pitch, settings.closed_speed);
+        let closed = closed.map(|(rotor, &inflow)| (rotor, ClosedFormState { theta, inflow, speed_ratio }));
         let air = airframe.air_loads(&motion, &effect, settings.stabilator_incidence, closed);
         self.loads_with(air, shares)
     }
@@ -136,7 +146,8 @@ impl System {
         for ((r, _, l), share) in self.each_rotor().zip(shares) {
             if l.dynamic_inflow {
                 let i = l.inflow().start;
-                let hub = self.hub_motion(r, at.y, at.y_dot).velocity;
+                let hub =
+                    self.felt_hub(r, (at.t, at.y), at.inputs, self.hub_motion(r, at.y, at.y_dot)).velocity;
                 let rate = self.inflow_rate(r, hub, &share.loads, [at.y[i], at.y[i + 1], at.y[i + 2]]);
                 for k in 0..3 {
                     f[i + k] = at.y_dot[i + k] - rate[k];

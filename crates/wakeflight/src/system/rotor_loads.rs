@@ -11,6 +11,7 @@ use crate::inflow::pitt_peters::DiskCondition;
 use crate::numerics::frames::{Body, Hub, Vec3};
 use crate::numerics::scalar::Real;
 use crate::rotor::hub::Rotor;
+use crate::rotor::speed::{RotorSpeed, Turning};
 
 /// Loads of a rotor on its hub, about the hub centre, in the axes its sense of rotation has ([`Sense`](crate::rotor::sense::Sense));
 /// `aero_*` the share of the air.
@@ -64,10 +65,52 @@ impl System {
     #[inline(always)]
     pub fn azimuth(&self, r: usize, t: f64, b: usize) -> f64 {
         let rotor = &self.rotors[r];
-        rotor.azimuth(rotor.omega * t, b)
+        rotor.azimuth(rotor.turned(t), b)
     }
 
-    /// Motion of the hub of rotor `r`, as its sense of rotation has it.
+    /// Speed of rotor `r` and its rate at time `t`.
+    #[inline(always)]
+    pub fn turning<U: Real>(&self, r: usize, t: f64, inputs: &Inputs<U>) -> Turning<U> {
+        let own = self.rotors[r].turning(t, inputs.t_start);
+        let (omega, omega_dot) = (U::cst(own.omega), U::cst(own.omega_dot));
+        match &inputs.disturbance {
+            None => Turning { omega, omega_dot },
+            Some(d) => Turning { omega: omega + d.speed[r][0], omega_dot: omega_dot + d.speed[r][1] },
+        }
+    }
+
+    /// Speed of rotor `r` over its nominal one.
+    #[inline(always)]
+    pub(super) fn speed_ratio<S: Real, U: Acting<S>>(&self, r: usize, t: f64, inputs: &Inputs<U>) -> S {
+        let rotor = &self.rotors[r];
+        if matches!(rotor.speed, RotorSpeed::Constant) && inputs.disturbance.is_none() {
+            return S::cst(1.0);
+        }
+        self.turning(r, t, inputs).omega.felt() / rotor.omega
+    }
+
+    /// Hub of rotor `r` as its blades feel it at time `t`, for its motion `hub` with the carrier in still air in the states `y`.
+    #[inline(always)]
+    pub fn felt_hub<S: Real, U: Acting<S>>(
+        &self,
+        r: usize,
+        (t, y): (f64, &[S]),
+        inputs: &Inputs<U>,
+        mut hub: HubMotion<S>,
+    ) -> HubMotion<S> {
+        let rotor = &self.rotors[r];
+        if let Some(disturbance) = &inputs.disturbance {
+            let wind = self.carrier.wind_at_hub(rotor, y, disturbance.wind.map(Acting::felt));
+            hub.velocity = hub.velocity - wind;
+        } else if matches!(rotor.speed, RotorSpeed::Constant) {
+            return hub;
+        }
+        let turning = self.turning(r, t, inputs);
+        Turning { omega: turning.omega.felt(), omega_dot: turning.omega_dot.felt() }
+            .carried_by(hub, rotor.omega)
+    }
+
+    /// Motion of the hub of rotor `r` with its carrier in still air, as its sense of rotation has it.
     #[inline(always)]
     pub fn hub_motion<S: Real>(&self, r: usize, y: &[S], y_dot: &[S]) -> HubMotion<S> {
         self.carrier.hub_motion(&self.rotors[r], y, y_dot, self.gravity)
@@ -81,7 +124,8 @@ impl System {
         inputs: &Inputs<U>,
         (t, psi): (f64, f64),
     ) -> PitchMotion<S> {
-        let p = self.rotors[r].blade_pitch(inputs.stick_at(t), inputs.stick_rate, psi);
+        let turning = self.turning(r, t, inputs);
+        let p = self.rotors[r].blade_pitch(inputs.stick_at(t), inputs.stick_rate, psi, turning);
         PitchMotion { theta: p.theta.felt(), theta_dot: p.theta_dot.felt(), theta_ddot: p.theta_ddot.felt() }
     }
 
@@ -196,6 +240,8 @@ impl System {
     }
 
     /// Rate of the dynamic inflow states lambda_0, lambda_s, lambda_c [1/s] of rotor `r` with its hub at `velocity`.
+    ///
+    /// All at the nominal speed: times (omega R)^2 the model says M R v_dot + V L^-1 v = T/(rho pi R^2), which knows no speed.
     pub(super) fn inflow_rate<S: Real>(
         &self,
         r: usize,

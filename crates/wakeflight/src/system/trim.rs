@@ -104,6 +104,8 @@ impl Host for System {
             stabilator_incidence: self.trim_stabilator(head, y),
             closed_pitch: self.pitch(head.controls)[3],
             closed_inflow: &vec![head.tail_inflow; self.closed.len()],
+            closed_speed: S::cst(1.0),
+            wind: None,
         };
         let loads = self.loads_on_airframe(airframe, y, &[share], &settings);
         let velocity = body_vector(y, Layout::VELOCITY);
@@ -158,6 +160,7 @@ impl Trim<'_, System> {
             t_start: 0.0,
             inflow: vec![inflow],
             stabilator_incidence: self.host().trim_stabilator(&head, &y),
+            disturbance: None,
         }
     }
 }

@@ -34,6 +34,9 @@ pub enum ProblemError {
         /// Numbers needed.
         needed: usize,
     },
+    /// Passages without an inflow.
+    #[error("inflow is needed: the problem has none of its own")]
+    NoInflow,
     /// No azimuth to average over.
     #[error("no azimuths to average over")]
     NoAzimuths,

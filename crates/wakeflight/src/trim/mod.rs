@@ -10,6 +10,7 @@ pub mod error;
 pub mod host;
 pub mod jacobian;
 pub mod layout;
+pub mod passages;
 pub mod path;
 pub mod problem;
 pub mod residual;

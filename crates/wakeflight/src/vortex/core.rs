@@ -6,7 +6,8 @@ use serde::{Deserialize, Serialize};
 ///
 /// With F the factor on the swirl of the line vortex, v = F circulation / (2 pi r), and q = r / core_radius:
 /// the family F = q^2 / (1 + q^(2n))^(1/n) of [vatistas1991], fitted to rotor tip vortices with n = 2 by [bagai1995].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Core {
     /// No core, F = 1.
     Singular,

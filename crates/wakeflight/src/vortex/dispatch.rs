@@ -1,27 +1,9 @@
-//! Choice of the instruction set when the program runs.
+//! The sums on the lanes of an instruction set.
 
 use super::lanes::Roots;
 use super::roots::Exact;
+use crate::numerics::instruction_set::InstructionSet;
 use pulp::{Scalar, Simd, WithSimd};
-
-/// Lanes the sums run in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum InstructionSet {
-    /// One point at a time.
-    Scalar,
-    /// The widest vectors of this machine that need no more than AVX2, NEON or SIMD128.
-    Vector,
-    /// Eight points at a time with reciprocal roots by estimate and refinement.
-    Avx512,
-}
-
-impl InstructionSet {
-    /// The widest of this machine.
-    #[must_use]
-    pub fn widest() -> Self {
-        if avx512::available() { Self::Avx512 } else { Self::Vector }
-    }
-}
 
 /// A computation on the lanes of any instruction set.
 pub(super) trait OverLanes {
@@ -40,26 +22,22 @@ impl<T: OverLanes> WithSimd for Plain<T> {
     }
 }
 
-/// Runs `task` on the given lanes; AVX-512 falls back where it is missing.
+/// Runs `task` on the given lanes; a set that is missing falls back to the next narrower one.
 pub(super) fn run<T: OverLanes>(task: T, instruction_set: InstructionSet) {
     match instruction_set {
         InstructionSet::Scalar => Scalar.vectorize(Plain(task)),
-        InstructionSet::Vector => avx512::without(task),
-        InstructionSet::Avx512 => avx512::with(task),
+        InstructionSet::Vector => wide::vector(task),
+        InstructionSet::Avx512 => wide::avx512(task),
     }
 }
 
 #[cfg(target_arch = "x86_64")]
-mod avx512 {
+mod wide {
     use super::{OverLanes, Plain, Scalar, Simd, WithSimd};
     use crate::vortex::roots::Refined;
     use pulp::x86::{V3, V4};
 
-    pub fn available() -> bool {
-        V4::is_available()
-    }
-
-    pub fn without<T: OverLanes>(task: T) {
+    pub fn vector<T: OverLanes>(task: T) {
         match V3::try_new() {
             Some(simd) => Simd::vectorize(simd, Plain(task)),
             None => Scalar.vectorize(Plain(task)),
@@ -77,28 +55,24 @@ mod avx512 {
         }
     }
 
-    pub fn with<T: OverLanes>(task: T) {
+    pub fn avx512<T: OverLanes>(task: T) {
         match V4::try_new() {
             Some(simd) => Simd::vectorize(simd, Wide(simd, task)),
-            None => without(task),
+            None => vector(task),
         }
     }
 }
 
 #[cfg(not(target_arch = "x86_64"))]
-mod avx512 {
+mod wide {
     use super::{OverLanes, Plain};
     use pulp::Arch;
 
-    pub fn available() -> bool {
-        false
-    }
-
-    pub fn without<T: OverLanes>(task: T) {
+    pub fn vector<T: OverLanes>(task: T) {
         Arch::new().dispatch(Plain(task));
     }
 
-    pub fn with<T: OverLanes>(task: T) {
-        without(task);
+    pub fn avx512<T: OverLanes>(task: T) {
+        vector(task);
     }
 }

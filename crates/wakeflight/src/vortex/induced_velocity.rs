@@ -1,13 +1,13 @@
 //! Velocity induced by many straight segments at many points.
 
 use super::core::{Core, CoreDistance};
-pub use super::dispatch::InstructionSet;
 use super::dispatch::run;
 use super::kernel::Sum;
 use super::models::{ForModel, Model, for_core};
 use super::sources::{Group, Part};
 use super::strands::Strands;
 use super::threads::share;
+use crate::numerics::instruction_set::InstructionSet;
 
 /// Straight segments from `start` to `end`, one entry each.
 #[derive(Clone, Debug, Default)]
@@ -36,6 +36,15 @@ pub struct Filaments {
 }
 
 impl Filaments {
+    /// Whether nodes and segments are as many as the filaments need.
+    #[must_use]
+    pub fn belong_together(&self) -> bool {
+        let n_segments: usize = self.n_nodes.iter().map(|n| n.saturating_sub(1)).sum();
+        self.n_nodes.iter().sum::<usize>() == self.nodes.len()
+            && self.circulation.len() == n_segments
+            && self.core_radius.len() == n_segments
+    }
+
     /// Appends a filament; shape of `circulation` and `core_radius`: one less than of `nodes`.
     pub fn push(&mut self, nodes: &[[f64; 3]], circulation: &[f64], core_radius: &[f64]) {
         debug_assert!(nodes.len() == circulation.len() + 1 && nodes.len() == core_radius.len() + 1);
@@ -46,8 +55,8 @@ impl Filaments {
     }
 }
 
-/// Points of one parallel task; a multiple of every number of lanes.
-const CHUNK: usize = 64;
+/// Points of one piece of work; a multiple of every number of lanes. Small: at the end threads wait for one piece at most.
+pub(super) const CHUNK: usize = 16;
 /// Evaluations below which one thread is faster than sharing the work.
 const LEAST_SHARED_WORK: usize = 30_000;
 
@@ -66,7 +75,7 @@ pub fn add_segments_velocity(
     core_distance: CoreDistance,
     velocity: &mut [[f64; 3]],
 ) {
-    add(points, &segments.strands(core), core, core_distance, InstructionSet::widest(), velocity);
+    add(points, &segments.strands(core), core, core_distance, InstructionSet::in_use(), velocity);
 }
 
 /// As [`add_segments_velocity`], for filaments.
@@ -77,10 +86,10 @@ pub fn add_filaments_velocity(
     core_distance: CoreDistance,
     velocity: &mut [[f64; 3]],
 ) {
-    add_filaments_velocity_on(InstructionSet::widest(), points, filaments, core, core_distance, velocity);
+    add_filaments_velocity_on(InstructionSet::in_use(), points, filaments, core, core_distance, velocity);
 }
 
-/// As [`add_filaments_velocity`] on given lanes, to compare and to time them; AVX-512 falls back where it is missing.
+/// As [`add_filaments_velocity`] on given lanes, to compare and to time them; a set that is missing falls back to a narrower one.
 pub fn add_filaments_velocity_on(
     instruction_set: InstructionSet,
     points: &[[f64; 3]],
@@ -138,7 +147,7 @@ pub(super) fn add(
 ///
 /// Same bits for any number of threads, and for any points beside a point.
 pub fn add_groups_velocity(groups: &mut [Group<'_>], core: Core, core_distance: CoreDistance) {
-    for_core(core, core_distance, Direct { groups, instruction_set: InstructionSet::widest() });
+    for_core(core, core_distance, Direct { groups, instruction_set: InstructionSet::in_use() });
 }
 
 /// The sum of every segment at every point.

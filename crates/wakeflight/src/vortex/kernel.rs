@@ -114,7 +114,7 @@ pub(super) fn dot<S: Simd, R: Roots<S>>(on: Lanes<S, R>, a: &Vectors<S>, b: &Vec
 }
 
 #[inline(always)]
-fn cross<S: Simd, R: Roots<S>>(on: Lanes<S, R>, a: &Vectors<S>, b: &Vectors<S>) -> Vectors<S> {
+pub(super) fn cross<S: Simd, R: Roots<S>>(on: Lanes<S, R>, a: &Vectors<S>, b: &Vectors<S>) -> Vectors<S> {
     [
         on.sub_mul(on.mul(a[1], b[2]), a[2], b[1]),
         on.sub_mul(on.mul(a[2], b[0]), a[0], b[2]),
@@ -124,7 +124,7 @@ fn cross<S: Simd, R: Roots<S>>(on: Lanes<S, R>, a: &Vectors<S>, b: &Vectors<S>) 
 
 /// The same vector for all points.
 #[inline(always)]
-fn splats<S: Simd, R: Roots<S>>(on: Lanes<S, R>, a: &[f64; 3]) -> Vectors<S> {
+pub(super) fn splats<S: Simd, R: Roots<S>>(on: Lanes<S, R>, a: &[f64; 3]) -> Vectors<S> {
     [on.splat(a[0]), on.splat(a[1]), on.splat(a[2])]
 }
 

@@ -2,6 +2,7 @@
 pub mod core;
 pub mod curvature;
 pub mod cylinder;
+pub mod directional;
 pub mod induced_velocity;
 pub mod sources;
 pub mod threads;
@@ -13,6 +14,7 @@ mod lanes;
 mod models;
 mod roots;
 mod strands;
+mod team;
 
 #[cfg(test)]
 mod tests;

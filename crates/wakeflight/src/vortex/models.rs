@@ -26,6 +26,27 @@ pub(super) trait Model: Copy + Send + Sync {
     fn factor<S: Simd, R: Roots<S>>(on: Lanes<S, R>, _: Seen<S>) -> S::f64s {
         on.splat(1.0)
     }
+    /// Rate of `denominator_sq` with the rates of |c|^2 and of r_c^2 L^2.
+    fn denominator_sq_rate<S: Simd, R: Roots<S>>(
+        on: Lanes<S, R>,
+        seen: Seen<S>,
+        rate: [S::f64s; 2],
+    ) -> S::f64s;
+    /// `factor` and its rate.
+    #[inline(always)]
+    fn factor_with_rate<S: Simd, R: Roots<S>>(
+        on: Lanes<S, R>,
+        _: Seen<S>,
+        _: [S::f64s; 2],
+    ) -> (S::f64s, S::f64s) {
+        (on.splat(1.0), on.splat(0.0))
+    }
+}
+
+/// 2 a b.
+#[inline(always)]
+fn twice<S: Simd, R: Roots<S>>(on: Lanes<S, R>, a: S::f64s, b: S::f64s) -> S::f64s {
+    on.mul(on.add(a, a), b)
 }
 
 /// A computation for one core model and distance.
@@ -77,6 +98,14 @@ impl Model for Singular {
     fn denominator_sq<S: Simd, R: Roots<S>>(on: Lanes<S, R>, seen: Seen<S>) -> S::f64s {
         Rankine::denominator_sq(on, seen)
     }
+    #[inline(always)]
+    fn denominator_sq_rate<S: Simd, R: Roots<S>>(
+        on: Lanes<S, R>,
+        seen: Seen<S>,
+        rate: [S::f64s; 2],
+    ) -> S::f64s {
+        Rankine::denominator_sq_rate(on, seen, rate)
+    }
 }
 
 impl Model for Scully {
@@ -85,12 +114,28 @@ impl Model for Scully {
         let sum = on.add(seen.cross_sq, seen.area);
         on.mul(sum, sum)
     }
+    #[inline(always)]
+    fn denominator_sq_rate<S: Simd, R: Roots<S>>(
+        on: Lanes<S, R>,
+        seen: Seen<S>,
+        rate: [S::f64s; 2],
+    ) -> S::f64s {
+        twice(on, on.add(seen.cross_sq, seen.area), on.add(rate[0], rate[1]))
+    }
 }
 
 impl Model for Vatistas2 {
     #[inline(always)]
     fn denominator_sq<S: Simd, R: Roots<S>>(on: Lanes<S, R>, seen: Seen<S>) -> S::f64s {
         on.mul_add(seen.cross_sq, seen.cross_sq, seen.area_sq)
+    }
+    #[inline(always)]
+    fn denominator_sq_rate<S: Simd, R: Roots<S>>(
+        on: Lanes<S, R>,
+        seen: Seen<S>,
+        rate: [S::f64s; 2],
+    ) -> S::f64s {
+        on.add(twice(on, seen.cross_sq, rate[0]), twice(on, seen.area, rate[1]))
     }
 }
 
@@ -99,6 +144,15 @@ impl Model for Rankine {
     fn denominator_sq<S: Simd, R: Roots<S>>(on: Lanes<S, R>, seen: Seen<S>) -> S::f64s {
         let largest = on.max(seen.cross_sq, seen.area);
         on.mul(largest, largest)
+    }
+    #[inline(always)]
+    fn denominator_sq_rate<S: Simd, R: Roots<S>>(
+        on: Lanes<S, R>,
+        seen: Seen<S>,
+        rate: [S::f64s; 2],
+    ) -> S::f64s {
+        let outside = on.greater(seen.cross_sq, seen.area);
+        twice(on, on.max(seen.cross_sq, seen.area), on.select(outside, rate[0], rate[1]))
     }
 }
 
@@ -133,6 +187,48 @@ impl Model for LambOseen {
         }
         d
     }
+    #[inline(always)]
+    fn denominator_sq_rate<S: Simd, R: Roots<S>>(
+        on: Lanes<S, R>,
+        seen: Seen<S>,
+        rate: [S::f64s; 2],
+    ) -> S::f64s {
+        let inside = on.mul(on.splat(DOUBLED / LAMB_OSEEN_ALPHA), seen.area);
+        let outside = on.mul(on.splat(DOUBLED / CORE_END), seen.cross_sq);
+        let inside_rate = on.mul(on.splat(DOUBLED / LAMB_OSEEN_ALPHA), rate[1]);
+        let outside_rate = on.mul(on.splat(DOUBLED / CORE_END), rate[0]);
+        let greater = on.greater(outside, inside);
+        twice(on, on.max(inside, outside), on.select(greater, outside_rate, inside_rate))
+    }
+
+    /// The series and its doublings with their slopes by y.
+    #[inline(always)]
+    fn factor_with_rate<S: Simd, R: Roots<S>>(
+        on: Lanes<S, R>,
+        seen: Seen<S>,
+        rate: [S::f64s; 2],
+    ) -> (S::f64s, S::f64s) {
+        let area = on.max(seen.area, on.splat(LEAST_SQUARE));
+        let q_sq = on.div(seen.cross_sq, area);
+        let exponent = on.mul(on.splat(LAMB_OSEEN_ALPHA / DOUBLED), q_sq);
+        let end = on.splat(CORE_END / DOUBLED);
+        let y = on.min(exponent, end);
+        let slope = on.div(on.sub_mul(rate[0], q_sq, rate[1]), area);
+        let inside = on.mul(on.splat(LAMB_OSEEN_ALPHA / DOUBLED), slope);
+        let y_rate = on.select(on.greater(exponent, end), on.splat(0.0), inside);
+        let (mut d, mut d_slope) = (on.splat(SERIES[11]), on.splat(0.0));
+        for n in (0..11).rev() {
+            d_slope = on.mul_add(d_slope, y, d);
+            d = on.mul_add(d, y, on.splat(SERIES[n]));
+        }
+        for _ in 0..DOUBLINGS {
+            // d (2 - y d)
+            let rest = on.sub_mul(on.splat(2.0), y, d);
+            d_slope = on.sub_mul(on.mul(d_slope, rest), d, on.mul_add(y, d_slope, d));
+            d = on.mul(d, rest);
+        }
+        (d, on.mul(d_slope, y_rate))
+    }
 }
 
 /// alpha q^2 from which on 1 - exp(-alpha q^2) is 1 to rounding.
@@ -157,5 +253,13 @@ impl Model for RosenheadMoore {
     #[inline(always)]
     fn denominator_sq<S: Simd, R: Roots<S>>(on: Lanes<S, R>, seen: Seen<S>) -> S::f64s {
         on.mul(seen.cross_sq, seen.cross_sq)
+    }
+    #[inline(always)]
+    fn denominator_sq_rate<S: Simd, R: Roots<S>>(
+        on: Lanes<S, R>,
+        seen: Seen<S>,
+        rate: [S::f64s; 2],
+    ) -> S::f64s {
+        twice(on, seen.cross_sq, rate[0])
     }
 }

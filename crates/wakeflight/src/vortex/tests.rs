@@ -2,16 +2,16 @@
 use super::core::{Core, CoreDistance, segment_velocity};
 use super::curvature::curvature_velocity;
 use super::induced_velocity::{
-    Filaments, InstructionSet, Segments, add_filaments_velocity, add_filaments_velocity_on,
-    add_induced_velocity, add_segments_velocity,
+    Filaments, Segments, add_filaments_velocity, add_filaments_velocity_on, add_induced_velocity,
+    add_segments_velocity,
 };
 use super::threads::{set_threads, threads};
+use crate::numerics::instruction_set::InstructionSet;
 use std::f64::consts::PI;
 
 const CORES: [Core; 6] =
     [Core::Singular, Core::Scully, Core::Vatistas2, Core::Rankine, Core::LambOseen, Core::RosenheadMoore];
 const DISTANCES: [CoreDistance; 2] = [CoreDistance::Line, CoreDistance::Segment];
-const SETS: [InstructionSet; 3] = [InstructionSet::Scalar, InstructionSet::Vector, InstructionSet::Avx512];
 
 /// Uniform numbers in [-1, 1), the same in every run.
 struct Numbers(u64);
@@ -164,7 +164,7 @@ fn velocity_is_finite_on_the_segment_its_ends_and_its_prolongation() {
                     let v = segment_velocity(point, start, end, 1.0, core_radius, core, distance);
                     assert!(v.iter().all(|x| x.is_finite()), "{core:?} {distance:?} {fraction}: {v:?}");
                     filament.core_radius[0] = core_radius;
-                    for set in SETS {
+                    for set in InstructionSet::ALL {
                         let mut w = [[0.0; 3]];
                         add_filaments_velocity_on(set, &[point], &filament, core, distance, &mut w);
                         assert!(
@@ -213,7 +213,7 @@ fn vector_sums_equal_the_reference_law() {
         filament.push(&[start, end], &[circulation], &[core_radius]);
         for core in CORES {
             for distance in DISTANCES {
-                for set in SETS {
+                for set in InstructionSet::ALL {
                     let mut v = vec![[0.0; 3]; points.len()];
                     add_filaments_velocity_on(set, &points, &filament, core, distance, &mut v);
                     for (v, point) in v.iter().zip(&points) {

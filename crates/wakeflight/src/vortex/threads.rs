@@ -1,6 +1,6 @@
-//! Number of threads of the sums, and the pool they run in.
+//! Number of threads of the sums, and the team they form.
 
-use rayon::{ThreadPool, ThreadPoolBuilder};
+use super::team::Team;
 use std::num::NonZero;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -20,14 +20,14 @@ pub struct ThreadsError {
     pub value: String,
 }
 
-/// A pool and the process that owns its threads; after a fork the child builds its own.
+/// A team and the process that owns its threads; after a fork the child builds its own.
 struct Owned {
     process: u32,
-    pool: Arc<ThreadPool>,
+    team: Arc<Team>,
 }
 
 static CHOSEN: Mutex<Option<usize>> = Mutex::new(None);
-static POOL: Mutex<Option<Owned>> = Mutex::new(None);
+static TEAM: Mutex<Option<Owned>> = Mutex::new(None);
 
 fn allowed(name: &'static str, value: &str) -> Result<usize, ThreadsError> {
     match value.trim().parse::<usize>() {
@@ -60,48 +60,41 @@ pub fn threads() -> Result<usize, ThreadsError> {
     }
 }
 
-/// Does `each` of the `pieces` of work; the calling thread begins at once, others join as they wake.
+/// Does `each` of the `pieces` of work; the calling thread begins at once, others join as they come.
 ///
-/// Work is handed out piece by piece: a thread that wakes late, or not at all, holds nobody up for longer than its own
-/// piece. Whichever thread does a piece, the piece is the same: results do not depend on the number of threads.
+/// Work is handed out piece by piece: a thread that comes late holds nobody up for longer than its own piece, one that
+/// does not come not at all. Whichever thread does a piece, the piece is the same: results do not depend on the number of
+/// threads.
 pub(crate) fn share<T: Send>(pieces: impl Iterator<Item = T> + Send, each: impl Fn(T) + Sync) {
-    let Some(pool) = pool() else { return pieces.for_each(each) };
+    let Some(team) = team() else { return pieces.for_each(each) };
     let left = Mutex::new(pieces);
     let next = || left.lock().unwrap_or_else(PoisonError::into_inner).next();
-    let work = || {
+    team.run(&|| {
         while let Some(piece) = next() {
             each(piece);
         }
-    };
-    pool.in_place_scope(|scope| {
-        for _ in 1..pool.current_num_threads() {
-            scope.spawn(|_| work());
-        }
-        work();
     });
 }
 
-/// Pool for more than one thread, built at first use; none where one thread is asked for or no pool can be had.
-fn pool() -> Option<Arc<ThreadPool>> {
+/// Team for more than one thread, formed at first use; none where one thread is asked for.
+fn team() -> Option<Arc<Team>> {
     let n = threads().unwrap_or(1);
     if n == 1 {
         return None;
     }
     let process = std::process::id();
-    let mut held = POOL.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut held = TEAM.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some(owned) = held.as_ref()
         && owned.process == process
-        && owned.pool.current_num_threads() == n
+        && owned.team.n_helpers() + 1 == n
     {
-        return Some(Arc::clone(&owned.pool));
+        return Some(Arc::clone(&owned.team));
     }
-    let pool = Arc::new(
-        ThreadPoolBuilder::new().num_threads(n).thread_name(|i| format!("wakeflight-{i}")).build().ok()?,
-    );
-    let previous = held.replace(Owned { process, pool: Arc::clone(&pool) });
+    let team = Arc::new(Team::new(n - 1));
+    let previous = held.replace(Owned { process, team: Arc::clone(&team) });
     if let Some(owned) = previous.filter(|owned| owned.process != process) {
-        // the threads of a parent process do not exist here: nothing to wait for
+        // the threads of a parent process do not exist here: nothing to end
         std::mem::forget(owned);
     }
-    Some(pool)
+    Some(team)
 }

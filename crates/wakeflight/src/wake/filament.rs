@@ -19,10 +19,19 @@ pub struct Filaments {
 }
 
 impl Filaments {
+    /// Free trailers of every blade, root to tip, at the origin without circulation, with the cores of undisturbed ageing.
+    pub fn free(options: &WakeOptions) -> Self {
+        let n_t = options.trailers_per_blade();
+        let mut filaments = Self::new(options, options.rotor.n_blades * n_t);
+        let aged = (0..n_t).flat_map(|t| aged_cores(options, options.release_core(t)));
+        filaments.core_squared = aged.collect::<Vec<_>>().repeat(options.rotor.n_blades);
+        filaments
+    }
+
     /// Filaments at the origin without circulation, with the cores of undisturbed ageing.
     pub fn new(options: &WakeOptions, n_filaments: usize) -> Self {
         let n_segments = options.n_segments();
-        let aged: Vec<f64> = (0..n_segments).map(|k| aged_core_squared(options, k)).collect();
+        let aged: Vec<f64> = aged_cores(options, options.core_radius).collect();
         Filaments {
             n_filaments,
             n_segments,
@@ -52,25 +61,31 @@ impl Filaments {
     }
 }
 
-/// Core radius after the age `zeta` [rad] of a vortex of constant length [m].
+/// Core radius after the age `zeta` [rad] of a vortex of constant length, released with the radius `release` R [m].
 ///
 /// r_c^2 = r_c0^2 + G R^2 zeta: diffusion of a Gaussian vortex with an eddy viscosity,
 /// G R^2 = 4 alpha delta nu / omega, alpha = 1.25643 [squire1965, bhagwat2002].
-pub fn core_radius(options: &WakeOptions, zeta: f64) -> f64 {
-    options.rotor.radius * (options.release_core().powi(2) + options.core_growth * zeta).sqrt()
+pub fn core_radius(options: &WakeOptions, release: f64, zeta: f64) -> f64 {
+    options.rotor.radius * (release.powi(2) + options.core_growth * zeta).sqrt()
 }
 
 /// Square of the core radius of segment `k` in the middle of its age [m2].
-pub fn aged_core_squared(options: &WakeOptions, k: usize) -> f64 {
-    core_radius(options, (k as f64 + 0.5) * options.delta_psi()).powi(2)
+pub fn aged_core_squared(options: &WakeOptions, release: f64, k: usize) -> f64 {
+    core_radius(options, release, (k as f64 + 0.5) * options.delta_psi()).powi(2)
+}
+
+/// Squares of the core radii of all segments of a filament [m2].
+pub fn aged_cores(options: &WakeOptions, release: f64) -> impl Iterator<Item = f64> + '_ {
+    (0..options.n_segments()).map(move |k| aged_core_squared(options, release, k))
 }
 
 /// Square of the core radius one step later [m2]: growth, then thinning at constant volume of vorticity.
 ///
-/// r_c^2 <- (r_c^2 + G R^2 delta_psi) l_old / l_new; the ratio of lengths is limited to 0.5 ... 2 in a step,
+/// `release`: radius at release over R. r_c^2 <- (r_c^2 + G R^2 delta_psi) l_old / l_new; the ratio of lengths is limited to 0.5 ... 2 in a step,
 /// the radius to 0.1 r_c0 ... 0.5 R.
 pub fn stretched_core_squared(
     options: &WakeOptions,
+    release: f64,
     core_squared: f64,
     length_old: f64,
     length_new: f64,
@@ -78,7 +93,7 @@ pub fn stretched_core_squared(
     let r2 = options.rotor.radius * options.rotor.radius;
     let grown = core_squared + options.core_growth * r2 * options.delta_psi();
     let ratio = if length_new > 0.0 { (length_old / length_new).clamp(0.5, 2.0) } else { 2.0 };
-    let least = 0.01 * options.release_core() * options.release_core() * r2;
+    let least = 0.01 * release * release * r2;
     (grown * ratio).clamp(least, (0.25 * r2).max(least))
 }
 
@@ -99,7 +114,7 @@ mod tests {
         options.core_radius = r0 / radius;
         options.core_growth = 4.0 * alpha * delta * nu / (omega * radius * radius);
         for (age_deg, expected) in rows {
-            let found = core_radius(&options, f64::to_radians(age_deg));
+            let found = core_radius(&options, options.core_radius, f64::to_radians(age_deg));
             assert!((found - expected).abs() < 1e-7, "{age_deg} deg: {found} {expected}");
         }
     }
@@ -117,9 +132,11 @@ mod tests {
         let mut options = WakeOptions::new(4, 8.0, 1.0, 0.4, 0.5, 27.0);
         options.core_growth = 0.0;
         let (old, strain) = (0.04, 0.3);
-        let new = stretched_core_squared(&options, old, 1.0, 1.0 + strain);
+        let new = stretched_core_squared(&options, options.core_radius, old, 1.0, 1.0 + strain);
         assert!((new.sqrt() - old.sqrt() / (1.0 + strain).sqrt()).abs() < 1e-15);
         // a segment ten times as long in one step is thinned by the limit only
-        assert!((stretched_core_squared(&options, old, 1.0, 10.0) - 0.5 * old).abs() < 1e-15);
+        assert!(
+            (stretched_core_squared(&options, options.core_radius, old, 1.0, 10.0) - 0.5 * old).abs() < 1e-15
+        );
     }
 }

@@ -29,7 +29,7 @@ impl RotorInstant {
     /// Blades and empty filaments.
     pub fn new(options: &WakeOptions, grid: &BladeGrid) -> Self {
         RotorInstant {
-            free: Filaments::new(options, options.rotor.n_blades * options.trailers_per_blade()),
+            free: Filaments::free(options),
             sheet: Filaments::new(options, options.rotor.n_blades * options.sheet_filaments()),
             edge: vec![[0.0; 3]; options.rotor.n_blades * (options.n_stations + 1)],
             station: vec![[0.0; 3]; options.rotor.n_blades * options.n_stations],

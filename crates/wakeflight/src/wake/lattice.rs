@@ -4,13 +4,15 @@
 //! markers k and k + 1 and has the mean circulation of the two markers, g_k = (G_k + G_(k+1))/2; G, the circulation of the
 //! panel when the marker left the blade, is minus the sum of the trailers' strengths from the root to trailer i. Summed,
 //! the rings leave trailing segments of the mean strength of their ends and shed segments g_k - g_(k-1), root to tip
-//! positive; at the blade g_0 - G_0. No vorticity ends anywhere but at the old end, where the wake that is left out goes on.
+//! positive; at the blade g_0 - G_0. No vorticity ends anywhere but at the old end, where the wake that is left out goes on;
+//! a far wake behind it has the mean circulation of the last turn and is closed in itself.
 
 use super::choices::{ShedWake, Trailers};
 use super::filament::Filaments;
 use super::options::WakeOptions;
 use super::sink::Sink;
 use super::vectors::sum;
+use std::f64::consts::TAU;
 
 /// Who looks at the free vortices of one blade.
 #[derive(Clone, Copy, Debug)]
@@ -40,9 +42,42 @@ pub(crate) fn push_filament(
     for k in viewer.first..n {
         segment(k, [0.0; 3]);
     }
+    if options.trailers == Trailers::FullSpan {
+        return push_far_trailer(segments, options, filaments, i, viewer);
+    }
     for shift in far_wake(options, filaments, i) {
         for k in n - options.steps_per_revolution()..n {
             segment(k, shift);
+        }
+    }
+}
+
+/// Angle [rad] of the segments that the far wake of a lattice is made of.
+const FAR_STEP: f64 = 30.0 * TAU / 360.0;
+
+/// Appends the displaced repeats of the last turn of trailer `i` of a lattice, in long segments of the turn's mean
+/// circulation: what lies there is felt as a whole, and of constant strength it needs no shed vortices to be closed.
+fn push_far_trailer(
+    segments: &mut impl Sink,
+    options: &WakeOptions,
+    free: &Filaments,
+    i: usize,
+    viewer: Viewer,
+) {
+    let shifts = far_wake(options, free, i);
+    if shifts.is_empty() {
+        return;
+    }
+    let (n, turn, m) = (free.n_segments, options.steps_per_revolution(), free.marker(i, 0));
+    let strength = free.circulation[m + n - turn..m + n].iter().sum::<f64>() / turn as f64;
+    let core = free.core_squared[(i + 1) * n - 1].sqrt().max(viewer.floor);
+    // the longest whole number of steps up to FAR_STEP that divides the turn
+    let most = ((FAR_STEP / options.delta_psi() + 1e-9) as usize).max(1);
+    let stride = (1..=most).rev().find(|s| turn.is_multiple_of(*s)).unwrap_or(1);
+    for shift in shifts {
+        for k in (n - turn..n).step_by(stride) {
+            let (a, b) = (free.position[m + k], free.position[m + k + stride]);
+            segments.push(sum(a, shift), sum(b, shift), strength, core);
         }
     }
 }
@@ -85,7 +120,7 @@ fn rings(options: &WakeOptions, free: &Filaments, blade: usize, k: usize) -> Vec
         .collect()
 }
 
-/// Appends the shed vortices of a blade, root to tip at every age, far wake included.
+/// Appends the shed vortices of a blade, root to tip at every age.
 ///
 /// `own`: seen from that blade's own stations, whose near wake has the present circulation all along. With `beyond` the
 /// rings it stands for are one, and what was shed over it is gathered at its end.
@@ -101,7 +136,7 @@ pub(crate) fn push_shed(
         return;
     }
     let (n, n_t) = (free.n_segments, options.trailers_per_blade());
-    let mut row = |k: usize, newer: &[f64], older: &[f64], shifts: &[[f64; 3]]| {
+    let mut row = |k: usize, newer: &[f64], older: &[f64]| {
         for p in 0..n_t - 1 {
             let i = blade * n_t + p;
             let ends = (free.position[free.marker(i, k)], free.position[free.marker(i + 1, k)]);
@@ -111,31 +146,15 @@ pub(crate) fn push_shed(
                     + free.core_squared[i * n + k.min(n - 1)])
             };
             let core = (0.5 * (age(i) + age(i + 1))).sqrt().max(viewer.floor);
-            let shift = |i: usize| shifts.get(i).copied().unwrap_or([0.0; 3]);
-            segments.push(sum(ends.0, shift(p)), sum(ends.1, shift(p + 1)), older[p] - newer[p], core);
+            segments.push(ends.0, ends.1, older[p] - newer[p], core);
         }
     };
     let near = if own && options.shed_wake == ShedWake::Beyond { viewer.first } else { 0 };
     let mut newer: Vec<f64> = panels(options, free, blade, 0).collect();
     for k in near..n {
         let older = rings(options, free, blade, k);
-        row(k, &newer, &older, &[]);
+        row(k, &newer, &older);
         newer = older;
-    }
-    if options.far_wake_turns == 0 {
-        return;
-    }
-    let turn = options.steps_per_revolution();
-    let repeats: Vec<Vec<[f64; 3]>> = (0..n_t).map(|t| far_wake(options, free, blade * n_t + t)).collect();
-    for repeat in 0..options.far_wake_turns {
-        let shifts: Vec<[f64; 3]> = repeats.iter().map(|r| r[repeat]).collect();
-        // the wake is taken as periodic: the last ring of a turn is followed by the first of the next
-        newer = rings(options, free, blade, n - 1);
-        for k in n - turn..n {
-            let older = rings(options, free, blade, k);
-            row(k, &newer, &older, &shifts);
-            newer = older;
-        }
     }
 }
 

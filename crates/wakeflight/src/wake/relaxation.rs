@@ -1,7 +1,7 @@
 //! Periodic wake of a steady flight condition by pseudo-implicit predictor-corrector relaxation [bagai1995].
 
 use super::error::{WakeError, finite, length};
-use super::filament::{aged_core_squared, distance, stretched_core_squared};
+use super::filament::{aged_cores, distance, stretched_core_squared};
 use super::geometry::{BladeGrid, release_points};
 use super::inboard_sheet;
 use super::initial;
@@ -90,7 +90,7 @@ impl<F: InducedVelocity> RelaxationWake<F> {
         let n_psi = options.steps_per_revolution();
         let (n_k, n_t, n_sheet) =
             (options.n_segments(), options.trailers_per_blade(), options.sheet_filaments());
-        let aged: Vec<f64> = (0..n_k).map(|k| aged_core_squared(&options, k)).collect();
+        let aged: Vec<f64> = (0..n_t).flat_map(|t| aged_cores(&options, options.release_core(t))).collect();
         let mut wake = RelaxationWake {
             grid: BladeGrid::new(&options),
             field,
@@ -103,7 +103,7 @@ impl<F: InducedVelocity> RelaxationWake<F> {
             sheet_release: vec![[0.0; 3]; n_psi * n_sheet],
             release: vec![[0.0; 3]; n_psi * n_t],
             position: vec![[0.0; 3]; n_psi * n_t * (n_k + 1)],
-            core_squared: aged.repeat(n_psi * n_t),
+            core_squared: aged.repeat(n_psi),
             sweeps: 0,
             evaluations: 0,
             work: FieldWork::default(),
@@ -328,6 +328,7 @@ impl<F: InducedVelocity> RelaxationWake<F> {
                 for t in 0..n_t {
                     cores[(l * n_t + t) * n_k + k] = stretched_core_squared(
                         &self.options,
+                        self.options.release_core(t),
                         cores[(past * n_t + t) * n_k + k - 1],
                         span(past, t, k - 1),
                         span(l, t, k),

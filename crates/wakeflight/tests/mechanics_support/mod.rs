@@ -25,6 +25,7 @@ use wakeflight::numerics::scalar::{Dual, Real};
 use wakeflight::numerics::tables::Grid;
 use wakeflight::rotor::lag_damper::LagDamper;
 use wakeflight::rotor::sense::Sense;
+use wakeflight::rotor::speed::{RotorSpeed, SpeedHistory};
 use wakeflight::rotor::swashplate::Rigging;
 use wakeflight::system::carrier::Stand;
 use wakeflight::system::data::{AircraftData, RiggedRotor, RotorData};
@@ -250,8 +251,24 @@ pub fn conservative_aircraft(blade: BladeProperties, gravity: f64) -> System {
     build(&data, true, gravity)
 }
 
+/// The system with the speed of every rotor going to `share` of its own in `seconds` from time zero.
+pub fn changing_speed(mut system: System, share: f64, seconds: f64) -> System {
+    for rotor in &mut system.rotors {
+        let corners = [(0.0, rotor.omega), (seconds, share * rotor.omega)];
+        rotor.speed = RotorSpeed::Prescribed(SpeedHistory::new(&corners).unwrap());
+    }
+    system
+}
+
 pub fn inputs(stick: [f64; 4], inflow: HeldInflow) -> Inputs {
-    Inputs { stick, stick_rate: [0.0; 4], t_start: 0.0, inflow: vec![inflow], stabilator_incidence: 0.1 }
+    Inputs {
+        stick,
+        stick_rate: [0.0; 4],
+        t_start: 0.0,
+        inflow: vec![inflow],
+        stabilator_incidence: 0.1,
+        disturbance: None,
+    }
 }
 
 pub fn at<'a, S>(t: f64, y: &'a [S], y_dot: &'a [S], inputs: &'a Inputs) -> Instant<'a, S> {

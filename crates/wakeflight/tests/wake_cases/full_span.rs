@@ -6,9 +6,7 @@ use std::f64::consts::{PI, TAU};
 use wakeflight::wake::geometry::BladeGrid;
 use wakeflight::wake::instant::RotorInstant;
 use wakeflight::wake::velocity_field::{FieldWork, VortexSegments, Wanted, field_at};
-use wakeflight::wake::{
-    BladeState, MarchingOptions, RelaxationWake, TimeMarchingWake, Trailers, WakeOptions, WakeRotor,
-};
+use wakeflight::wake::{BladeState, RelaxationWake, TimeMarchingWake, Trailers, WakeOptions, WakeRotor};
 
 pub const CT: f64 = 0.006;
 
@@ -27,7 +25,8 @@ pub fn full_span() -> WakeOptions {
         trailers: Trailers::FullSpan,
         n_stations: 14,
         n_trailers: 8,
-        trailer_core: 0.04,
+        trailer_core: Some(0.04),
+        core_radius: 0.04,
         azimuth_step: TAU / 18.0,
         turns: 3.0,
         ..options()
@@ -72,7 +71,7 @@ pub fn divergence(
 pub fn unsteady_wake(options: &WakeOptions) -> TimeMarchingWake {
     let hub = hub(0.15, 0.01, 0.0, 0.0, 0.0);
     let start = loaded(options, hub, 0.03);
-    let mut wake = TimeMarchingWake::from_relaxation(&start, 0, MarchingOptions::default()).unwrap();
+    let mut wake = TimeMarchingWake::from_relaxation(&start, 0, two_fields()).unwrap();
     for step in 1..=options.n_segments() + 3 {
         let circulation: Vec<f64> = (0..options.rotor.n_blades * options.n_stations)
             .map(|j| 10.0 + 4.0 * (1.3 * j as f64 + 0.7 * step as f64).sin())

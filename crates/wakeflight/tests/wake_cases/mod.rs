@@ -3,12 +3,18 @@
 
 use std::f64::consts::{PI, TAU};
 use wakeflight::wake::{
-    BladeState, HubMotion, RelaxationOptions, RelaxationWake, TimeMarchingWake, WakeOptions,
+    BladeState, Evaluation, HubMotion, MarchingOptions, RelaxationOptions, RelaxationWake, TimeMarchingWake,
+    WakeOptions,
 };
 
 pub const RADIUS: f64 = 8.0;
 pub const OMEGA: f64 = 27.0;
 pub const CUTOUT: f64 = 0.2;
+
+/// Options of marching with a field of the predicted and of the corrected wake in every step.
+pub fn two_fields() -> MarchingOptions {
+    MarchingOptions { evaluation: Evaluation::Pece, ..MarchingOptions::default() }
+}
 
 pub fn options() -> WakeOptions {
     WakeOptions {

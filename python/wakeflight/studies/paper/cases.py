@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 MANEUVERS = ("arrested-descent", "roll-reversal")
 MODELS: dict[str, InflowModel] = {
     "dynamic": DynamicInflow(),
-    "relaxation": RelaxationWake(),
-    "time-marching": TimeMarchingWake(),
+    "relaxation": RelaxationWake.preset("paper"),
+    "time-marching": TimeMarchingWake.preset("paper"),
 }
 """The paper's three, in the order of its legends; every option is the default."""
 
@@ -81,7 +81,7 @@ def _trim_inflow(model: InflowModel) -> InflowModel:
     """Model of the trim; the cap in flight is no part of it."""
     found = trim_model(model)
     if "max_loops_response" in found.as_attributes():
-        found = replace(found, max_loops_response=RelaxationWake().max_loops_response)
+        found = replace(found, max_loops_response=RelaxationWake.preset("paper").max_loops_response)
     return found
 
 
@@ -100,18 +100,28 @@ def question_cases() -> list[Planned]:
     cases = []
     for maneuver, length in zip(MANEUVERS, (12, 36), strict=True):
         cases.append(
-            Planned(f"{maneuver}/no-convergence", maneuver, TimeMarchingWake(convergence_revolutions=0), 2 * length)
+            Planned(
+                f"{maneuver}/no-convergence",
+                maneuver,
+                TimeMarchingWake.preset("paper", convergence_revolutions=0),
+                2 * length,
+            )
         )
         for cap in (*CAPS, UNTIL_CONVERGED):
-            if cap != RelaxationWake().max_loops_response:
+            if cap != RelaxationWake.preset("paper").max_loops_response:
                 cases.append(
-                    Planned(cap_name(maneuver, cap), maneuver, RelaxationWake(max_loops_response=cap), 2 * length + cap)
+                    Planned(
+                        cap_name(maneuver, cap),
+                        maneuver,
+                        RelaxationWake.preset("paper", max_loops_response=cap),
+                        2 * length + cap,
+                    )
                 )
     return cases
 
 
 def cap_name(maneuver: str, cap: int) -> str:
     """Name of the relaxation flight with this cap; the default cap is the flight of the figures."""
-    if cap == RelaxationWake().max_loops_response:
+    if cap == RelaxationWake.preset("paper").max_loops_response:
         return f"{maneuver}/relaxation"
     return f"{maneuver}/relaxation-{'converged' if cap == UNTIL_CONVERGED else f'cap-{cap}'}"

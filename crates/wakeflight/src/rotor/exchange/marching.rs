@@ -3,7 +3,7 @@
 //! Circulation from the motion and the far inflow, the wake one step further, the far inflow anew, the circulation again:
 //! one call, with the near wakes of the blades found once.
 
-use super::{Held, Lattice, Place, SteadyWake, Tips, over_step, row, steps_of};
+use super::{Held, Lattice, Place, SteadyWake, over_step, row, steps_of};
 use crate::inflow::disk::{DiskMean, LiftingDisk};
 use crate::rotor::circulation::{BladeInstant, NearWake};
 use crate::rotor::hub::Rotor;
@@ -11,7 +11,6 @@ use crate::vortex::threads::share;
 use crate::wake::miss_distance::miss_distance_in_cores;
 use crate::wake::{
     BladeState, CirculationSolution, HubMotion as WakeHub, InboardWake, Route, TimeMarchingWake, WakeError,
-    tip_rows,
 };
 use serde::{Deserialize, Serialize};
 
@@ -203,21 +202,12 @@ impl MarchingExchange {
         }
     }
 
-    pub(super) fn tips(&self) -> Tips {
-        let (wake, options) = (&self.wake, self.wake.options());
-        let (n_trailers, segments) = (options.trailers_per_blade(), options.n_segments());
-        Tips {
-            position: wake.tip_position(),
-            circulation: tip_rows(wake.marker_circulation(), n_trailers, segments + 1),
-            core_radius: tip_rows(&wake.core_radius(), n_trailers, segments),
-        }
-    }
-
     pub(super) fn lattice(&self) -> Lattice {
         Lattice {
             n_trailers: self.wake.options().trailers_per_blade(),
             position: self.wake.position().to_vec(),
             circulation: self.wake.marker_circulation().to_vec(),
+            core_radius: self.wake.core_radius(),
         }
     }
 

@@ -14,6 +14,7 @@ pub use steady::{Changes, Iteration, SteadyWake};
 
 use super::circulation::BladeInstant;
 use super::hub::Rotor;
+use super::speed::RotorSpeed;
 use crate::blade::aerodynamics::Air;
 use crate::blade::hub_motion::HubMotion;
 use crate::blade::kinematics::PitchMotion;
@@ -60,18 +61,7 @@ pub struct Held {
     pub mean: f64,
 }
 
-/// Tip vortices at an instant.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Tips {
-    /// Nodes (n_blades, n_ages) [m], hub axes.
-    pub position: Vec<[f64; 3]>,
-    /// Circulation of the nodes (n_blades, n_ages) [m2/s].
-    pub circulation: Vec<f64>,
-    /// Core radii of the segments (n_blades, n_ages - 1) [m].
-    pub core_radius: Vec<f64>,
-}
-
-/// Every free trailer at an instant, root to tip.
+/// Every free trailer at an instant, root to tip: the last of a blade is its tip vortex.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lattice {
     /// Trailers of a blade.
@@ -80,6 +70,8 @@ pub struct Lattice {
     pub position: Vec<[f64; 3]>,
     /// Their circulation (n_blades, n_trailers, n_ages) [m2/s].
     pub circulation: Vec<f64>,
+    /// Core radii of the segments (n_blades, n_trailers, n_ages - 1) [m].
+    pub core_radius: Vec<f64>,
 }
 
 /// One of the inflow models of a flight, with all that it keeps between exchanges.
@@ -108,8 +100,15 @@ impl Exchange {
         matches!(self, Self::Relaxation(wake) if wake.renews(step))
     }
 
-    /// The flight has reached `step`: the air answers.
+    /// The flight has reached `step`: the air answers. Wakes go by equal steps of time: they refuse a rotor whose speed changes.
     pub fn advance(&mut self, step: usize, reached: &Reached) -> Result<(), WakeError> {
+        if !matches!(self, Self::Dynamic) && reached.place.rotor.speed != RotorSpeed::Constant {
+            return Err(WakeError::InvalidOption {
+                field: "rotor_speed",
+                value: "a history".into(),
+                allowed: "must be constant with a free wake".into(),
+            });
+        }
         match self {
             Self::Dynamic => Ok(()),
             Self::Relaxation(wake) => wake.advance(step, reached),
@@ -117,29 +116,46 @@ impl Exchange {
         }
     }
 
-    /// What the last exchange saw; none where the model does not tell.
-    pub fn report(&self) -> Option<ExchangeReport> {
+    /// The marching wake with what goes with it; none of another model.
+    pub fn marching(&self) -> Option<&MarchingExchange> {
         match self {
-            Self::Marching(wake) => wake.report,
+            Self::Marching(wake) => Some(wake),
             Self::Dynamic | Self::Relaxation(_) => None,
         }
     }
 
-    /// Evaluations of the segment law so far.
-    pub fn segment_evaluations(&self) -> u64 {
+    /// The same, to be marched.
+    pub fn marching_mut(&mut self) -> Option<&mut MarchingExchange> {
         match self {
-            Self::Dynamic => 0,
-            Self::Relaxation(wake) => wake.steady.segment_evaluations(),
-            Self::Marching(wake) => wake.wake.segment_evaluations(),
+            Self::Marching(wake) => Some(wake),
+            Self::Dynamic | Self::Relaxation(_) => None,
         }
     }
 
-    /// Tip vortices with the blades where they are after `step` steps; none without a wake.
-    pub fn tips(&self, step: usize) -> Option<Tips> {
+    /// What the last exchange saw, by name: largest motion of a marker and odd-even content over R, smallest distance of blade and
+    /// tip vortex in core radii, not a number where the model does not tell.
+    pub fn monitors(&self) -> [(&'static str, f64); 3] {
+        let seen = self.marching().and_then(|wake| wake.report);
+        let (moved, odd_even, distance) =
+            seen.map_or((0.0, 0.0, f64::NAN), |r| (r.max_displacement, r.odd_even, r.miss_distance));
+        [("max_displacement", moved), ("odd_even", odd_even), ("vortex_blade_distance", distance)]
+    }
+
+    /// Counted work by name; none without a wake.
+    pub fn counters(&self) -> Vec<(&'static str, u64)> {
         match self {
-            Self::Dynamic => None,
-            Self::Relaxation(wake) => wake.tips(step),
-            Self::Marching(wake) => Some(wake.tips()),
+            Self::Dynamic => Vec::new(),
+            Self::Relaxation(wake) => vec![
+                ("segment_evaluations", wake.steady.segment_evaluations()),
+                ("unconverged_revolutions", wake.unconverged),
+                ("relaxation_updates", wake.updates),
+                ("relaxation_iterations", wake.steady.sweeps),
+            ],
+            Self::Marching(wake) => vec![
+                ("segment_evaluations", wake.wake.segment_evaluations()),
+                ("circulation_not_converged", wake.unsolved as u64),
+                ("circulation_followed", wake.followed as u64),
+            ],
         }
     }
 

@@ -1,12 +1,12 @@
 //! The relaxation wake in flight: the motion of the last revolution taken as steady, the wake renewed when it is due.
 
-use super::{Held, Lattice, Reached, SteadyWake, Tips, azimuth, over_step, row, steps_of};
+use super::{Held, Lattice, Reached, SteadyWake, azimuth, over_step, row, steps_of};
 use crate::blade::MAX_MODES;
 use crate::blade::kinematics::ModalMotion;
 use crate::inflow::disk::DiskMean;
 use crate::rotor::circulation::BladeInstant;
 use crate::rotor::hub::Rotor;
-use crate::wake::{RelaxationOptions, RelaxationWake, WakeError, tip_rows};
+use crate::wake::{RelaxationOptions, RelaxationWake, WakeError};
 use serde::{Deserialize, Serialize};
 
 /// Modal coordinates and rates of a blade at an azimuth.
@@ -104,21 +104,7 @@ impl RelaxationExchange {
         (0..n_blades).map(move |b| row(step, b, n_blades, n))
     }
 
-    /// The tip vortices of the map, with the circulation of the azimuth of their release.
-    pub(super) fn tips(&self, step: usize) -> Option<Tips> {
-        let wake = self.steady.wake.as_ref()?;
-        let (n, options) = (self.passages.len(), wake.options());
-        let (ages, n_trailers) = (options.n_segments() + 1, options.trailers_per_blade());
-        let released = tip_rows(wake.released_circulation(), n_trailers, 1);
-        let cores = tip_rows(&wake.core_radius(), n_trailers, ages - 1);
-        let circulation = |row: usize| (0..ages).map(move |age| born(row, age, n));
-        Some(Tips {
-            position: picked(&wake.tip_position(), ages, self.rows(step)),
-            circulation: self.rows(step).flat_map(circulation).map(|k| released[k]).collect(),
-            core_radius: picked(&cores, ages - 1, self.rows(step)),
-        })
-    }
-
+    /// The trailers of the map, with the circulation of the azimuth of their release.
     pub(super) fn lattice(&self, step: usize) -> Option<Lattice> {
         let wake: &RelaxationWake = self.steady.wake.as_ref()?;
         let n = self.passages.len();
@@ -131,7 +117,8 @@ impl RelaxationExchange {
             }
         }
         let position = picked(wake.position(), n_trailers * ages, self.rows(step));
-        Some(Lattice { n_trailers, position, circulation })
+        let core_radius = picked(&wake.core_radius(), n_trailers * (ages - 1), self.rows(step));
+        Some(Lattice { n_trailers, position, circulation, core_radius })
     }
 }
 

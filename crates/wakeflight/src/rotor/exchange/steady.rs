@@ -275,7 +275,23 @@ impl SteadyWake {
     }
 }
 
+impl Iteration {
+    /// By name.
+    pub fn named(&self) -> impl Iterator<Item = (&'static str, f64)> {
+        self.changes.named().into_iter().chain([("geometry_change", self.geometry)])
+    }
+}
+
 impl Changes {
+    /// By name.
+    pub fn named(&self) -> [(&'static str, f64); 3] {
+        [
+            ("inflow_change", self.inflow),
+            ("thrust_change", self.thrust),
+            ("first_turn_change", self.first_turn),
+        ]
+    }
+
     /// Largest ratio to what is `allowed`, below one at rest; not a number where one of them is not.
     pub fn over(&self, allowed: &Self) -> f64 {
         let ratios = [

@@ -70,6 +70,7 @@ impl Task for BladePass<'_> {
             number.set_slope(lane, 1.0);
         }
         let hub = system.hub_motion(r, &carrier, &carrier_dot);
+        let hub = system.felt_hub(r, (at.t, &carrier), at.inputs, hub);
         let psi = system.azimuth(r, at.t, self.b);
         let control = system.blade_pitch(r, at.inputs, (at.t, psi));
         let inflow = match at.inputs.inflow[r] {

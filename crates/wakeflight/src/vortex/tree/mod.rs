@@ -25,6 +25,7 @@ use sum::{Acceptance, Found, TreeSum};
 
 /// How a sum over segments is taken.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Method {
     /// Every segment at every point, exact to rounding.
     Direct,

@@ -4,8 +4,9 @@ use super::cells::{Cell, Cells, Leaf};
 use super::far_field::over_harmonics;
 use super::harmonics::remainder;
 use super::order::{bounds, distance, into_blocks, middle};
+use crate::numerics::instruction_set::InstructionSet;
 use crate::vortex::core::{Core, CoreDistance, LAMB_OSEEN_ALPHA};
-use crate::vortex::dispatch::{InstructionSet, OverLanes, run};
+use crate::vortex::dispatch::{OverLanes, run};
 use crate::vortex::kernel::{gathered, over_sources, scattered};
 use crate::vortex::lanes::{Lanes, Roots};
 use crate::vortex::models::{ForModel, Model};
@@ -91,7 +92,7 @@ impl ForModel for TreeSum<'_> {
         let points: Vec<[f64; 3]> = order.iter().map(|i| self.points[*i]).collect();
         let mut velocity = vec![[0.0; 3]; points.len()];
         let mut found = vec![Found::default(); points.len().div_ceil(BLOCK)];
-        let (cells, acceptance, instruction_set) = (self.cells, self.acceptance, InstructionSet::widest());
+        let (cells, acceptance, instruction_set) = (self.cells, self.acceptance, InstructionSet::in_use());
         let sum = |points: &[[f64; 3]], velocity: &mut [[f64; 3]], found: &mut Found| {
             let lists = Lists::new(points, cells, acceptance);
             *found = lists.found;

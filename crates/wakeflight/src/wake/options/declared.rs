@@ -1,7 +1,7 @@
 //! The options of the free wakes: each stands here once, and nowhere else is its name, range, default or meaning told.
 //!
 //! Lengths are over the radius or the chord, angles in rad. Where a default depends on the regime of the rotor the three are
-//! those of forward flight, of hover and climb, and of axial descent.
+//! those of forward flight, of hover and climb, and of axial descent; at low speed it is that of forward flight unless told.
 
 use super::describe::{
     EVERY_MODEL, FREE_WAKES, RELAXATION, TIME_MARCHING, always, by_regime, declare, left_open,
@@ -26,7 +26,7 @@ declare! {
         rotor: WakeRotor
     {
         /// Length of the free filaments in turns; a whole number of azimuth steps.
-        turns: f64 = by_regime(4.0, 5.0, 8.0), unit("turns"), between(1.0, 20.0), source(&["leishman2002"]),
+        turns: f64 = by_regime(4.0, 5.0, 8.0), lattice(2.0), unit("turns"), between(1.0, 20.0), source(&["leishman2002"]),
             finer_larger("wake-turns", None);
 
         /// Step of azimuth, of wake age and of the coupling; divides the angle between blades.
@@ -42,34 +42,34 @@ declare! {
         form: Form = always(Form::Displacement);
 
         /// What leaves a blade freely: its tip vortex alone, or trailers all over the span joined by shed vortices.
-        trailers: Trailers = always(Trailers::Tip), source(&["ribera2004"]);
+        trailers: Trailers = by_regime(Trailers::FullSpan, Trailers::Tip, Trailers::Tip).at_low_speed(Trailers::Tip), source(&["ribera2004"]);
 
         /// Trailers per blade of a full-span wake; 0 is one at every edge of the bound elements (n_stations + 1).
-        n_trailers: usize = always(0), between(0.0, 201.0);
+        n_trailers: usize = always(3), between(0.0, 201.0);
 
-        /// Core radius at release of the trailers of a full-span wake, over the rotor radius.
-        trailer_core: f64 = always(0.02), unit("R"), between(0.0, 0.2), source(&["vatistas1991"]);
+        /// Core radius at release of the trailers inboard of the tip of a full-span wake, over the rotor radius.
+        trailer_core: Option<f64> = left_open(None, "a third of the mean distance of the trailers, at least 0.02 R"), unit("R"), between(0.0, 0.2), source(&["vatistas1991"]);
 
         /// Shed vortices of a full-span wake: none, all, or all with those over a blade's own near wake gathered at its end.
         shed_wake: ShedWake = always(ShedWake::Beyond);
 
         /// Tip vortex strength: uniform circulation of equal thrust, maximum or mean of the outboard part.
-        tip_strength: TipStrength = always(TipStrength::Equivalent);
+        tip_strength: TipStrength = always(TipStrength::Equivalent), tip_alone();
 
         /// Inner end of the part that `max` and `mean` look at, over the radius.
-        tip_strength_inner: f64 = always(0.5), unit("R"), between(0.0, 0.95);
+        tip_strength_inner: f64 = always(0.5), tip_alone(), unit("R"), between(0.0, 0.95);
 
         /// Nothing, or a sheet of rigid helical filaments that closes the tip vortex inboard.
-        inboard_wake: InboardWake = always(InboardWake::None);
+        inboard_wake: InboardWake = always(InboardWake::None), tip_alone();
 
         /// Filaments per blade of the sheet.
-        n_sheet: usize = always(4), between(1.0, 20.0);
+        n_sheet: usize = always(4), tip_alone(), between(1.0, 20.0);
 
         /// Multiple of the momentum inflow that carries the sheet down.
-        sheet_factor: f64 = by_regime(1.0, 1.4, 1.0), between(0.0, 5.0);
+        sheet_factor: f64 = by_regime(1.0, 1.4, 1.0), tip_alone(), between(0.0, 5.0);
 
         // smaller cores do not settle where the wake stays in the disk
-        /// Core radius of tip vortex and sheet at release, over the rotor radius.
+        /// Core radius of tip vortex, which is the outermost trailer, and sheet at release, over the rotor radius.
         core_radius: f64 = always(0.02), unit("R"), between(0.0, 0.2), source(&["vatistas1991", "bhagwat2002"]),
             varied("core-radius");
 
@@ -101,14 +101,15 @@ declare! {
 
         /// What goes on behind the free filaments: repeats of the last turn, or, for tip vortices alone in hover and climb, a
         /// semi-infinite vortex cylinder (`cylinder`).
-        far_wake: FarWake = always(FarWake::Repeat), source(&["branlard2014"]);
+        far_wake: FarWake = always(FarWake::Repeat), tip_alone(), source(&["branlard2014"]);
 
-        /// Repeats of the last turn behind the free filaments; none with a `cylinder` or full-span trailers.
-        far_wake_turns: usize = by_regime(0, 2, 0), unit("turns"), between(0.0, 50.0),
+        /// Repeats of the last turn behind the free filaments; of a full-span wake in its mean circulation and in steps of
+        /// 30 deg. None with a `cylinder`.
+        far_wake_turns: usize = by_regime(0, 2, 0), lattice(2), unit("turns"), between(0.0, 50.0),
             finer_larger("far-wake-turns", None);
 
         /// Where the tip vortex leaves the blade, over the radius.
-        release_radius: f64 = always(1.0), unit("R"), between(0.5, 1.0);
+        release_radius: f64 = always(1.0), tip_alone(), unit("R"), between(0.5, 1.0);
 
         /// Whether the body's rates act on the free filaments (on blades and near wake they always do).
         rates: bool = always(true), source(&["ribera2004"]);
@@ -158,7 +159,7 @@ declare! {
         predictor: Predictor = always(Predictor::Same), source(&["bhagwat2001"]);
 
         /// Fields of a step: of the predicted and the corrected wake, or of the predicted alone ("pec", half the work).
-        evaluation: Evaluation = always(Evaluation::Pece);
+        evaluation: Evaluation = always(Evaluation::Pec);
 
         /// Weight of a second difference in time that damps the odd-even mode of PC2B (0.05); 0 with positions.
         time_filter: f64 = always(0.0), between(0.0, 0.49);

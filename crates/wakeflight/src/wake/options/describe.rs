@@ -123,6 +123,8 @@ pub enum Told {
     ByRegime {
         /// Forward flight.
         forward: Plain,
+        /// Low speed.
+        slow: Plain,
         /// Hover and climb.
         hover: Plain,
         /// Axial descent.
@@ -146,10 +148,24 @@ pub(crate) fn always<T: Value>(value: T) -> Start<T> {
     Start { value, told: Told::Always(value.plain()) }
 }
 
-/// A default for each regime; the core starts from that of forward flight.
+/// A default for each regime, that of low speed being that of forward flight; the core starts from that of forward flight.
 pub(crate) fn by_regime<T: Value>(forward: T, hover: T, descent: T) -> Start<T> {
-    let told = Told::ByRegime { forward: forward.plain(), hover: hover.plain(), descent: descent.plain() };
+    let (forward_told, hover, descent) = (forward.plain(), hover.plain(), descent.plain());
+    let told = Told::ByRegime { forward: forward_told, slow: forward_told, hover, descent };
     Start { value: forward, told }
+}
+
+impl<T: Value> Start<T> {
+    /// Another default at low speed, where else that of forward flight holds.
+    pub(crate) fn at_low_speed(self, value: T) -> Self {
+        let told = match self.told {
+            Told::ByRegime { forward, hover, descent, .. } => {
+                Told::ByRegime { forward, slow: value.plain(), hover, descent }
+            }
+            told => told,
+        };
+        Self { told, ..self }
+    }
 }
 
 /// No default: what holds then in `words`; the core starts from `value`.
@@ -200,6 +216,10 @@ pub struct Descriptor {
     pub words: &'static [Word],
     /// Default.
     pub default: Told,
+    /// Default in every regime where trailers leave all over the span; none where it is the same.
+    pub lattice: Option<Plain>,
+    /// Whether it acts on a lone tip vortex only: where it is set, trailers that are left open are that.
+    pub tip_alone: bool,
     /// Meaning, in a sentence.
     pub meaning: String,
     /// Keys of the bibliography.
@@ -227,6 +247,8 @@ impl Descriptor {
             range: None,
             words: T::WORDS,
             default: default.told,
+            lattice: None,
+            tip_alone: false,
             meaning,
             sources: &[],
             refinement: None,
@@ -236,6 +258,16 @@ impl Descriptor {
     /// Its unit: `rad`, or what it is a fraction of.
     pub(crate) fn unit(self, unit: &'static str) -> Self {
         Self { unit, ..self }
+    }
+
+    /// Another default where trailers leave all over the span, whatever the regime.
+    pub(crate) fn lattice(self, value: impl Value) -> Self {
+        Self { lattice: Some(value.plain()), ..self }
+    }
+
+    /// Acts where a lone tip vortex leaves the blade.
+    pub(crate) fn tip_alone(self) -> Self {
+        Self { tip_alone: true, ..self }
     }
 
     /// Values from `low` to `high`, both allowed.

@@ -11,6 +11,9 @@ use std::f64::consts::TAU;
 /// Outer end of the spans that the inboard sheet gathers (fraction of R).
 pub const OUTER_END: f64 = 0.8;
 
+/// Least core radius that the trailers inboard of the tip are given where none is asked for, over R.
+const LEAST_TRAILER_CORE: f64 = 0.02;
+
 /// Nearest whole number if `value` is one to rounding.
 fn whole(value: f64) -> Option<usize> {
     let nearest = value.round();
@@ -49,7 +52,9 @@ pub fn check_azimuth_step(step: f64, n_blades: usize) -> Result<(), WakeError> {
 }
 
 impl WakeOptions {
-    /// Options of a rotor with every numerical parameter at its default; lengths in m, `omega` in rad/s.
+    /// Options of a rotor with a lone tip vortex (made full-span, with trailers at every edge), every other numerical
+    /// parameter at its default in forward flight; lengths
+    /// in m, `omega` in rad/s.
     pub fn new(
         n_blades: usize,
         radius: f64,
@@ -59,7 +64,13 @@ impl WakeOptions {
         omega: f64,
     ) -> Self {
         let rotor = WakeRotor { n_blades, radius, root_cutout, hinge_offset, chord, omega };
-        WakeOptions { rotor, ..WakeOptions::default() }
+        WakeOptions {
+            rotor,
+            trailers: Trailers::Tip,
+            n_trailers: 0,
+            far_wake_turns: 0,
+            ..WakeOptions::default()
+        }
     }
 
     /// How the vortices are summed at the markers.
@@ -101,12 +112,17 @@ impl WakeOptions {
         }
     }
 
-    /// Core radius of the free filaments at their release (fraction of R).
-    pub fn release_core(&self) -> f64 {
-        match self.trailers {
-            Trailers::Tip => self.core_radius,
-            Trailers::FullSpan => self.trailer_core,
+    /// Core radius of free trailer `t` of a blade, root to tip, at its release (fraction of R).
+    pub fn release_core(&self, t: usize) -> f64 {
+        let panels = self.trailers_per_blade() - 1;
+        if t == panels {
+            return self.core_radius;
         }
+        // what a trailer stands for is spread over the panels beside it
+        self.trailer_core.unwrap_or_else(|| {
+            let span = 1.0 - self.rotor.root_cutout / self.rotor.radius;
+            (span / (3.0 * panels as f64)).max(LEAST_TRAILER_CORE)
+        })
     }
 
     /// Tip speed [m/s].
@@ -277,8 +293,8 @@ mod tests {
             assert_eq!(!words.is_empty(), *kind == Kind::Word, "{name}: words");
             match told.default {
                 Told::Always(value) => told.check(value).unwrap(),
-                Told::ByRegime { forward, hover, descent } => {
-                    [forward, hover, descent].into_iter().for_each(|v| told.check(v).unwrap());
+                Told::ByRegime { forward, slow, hover, descent } => {
+                    [forward, slow, hover, descent].into_iter().for_each(|v| told.check(v).unwrap());
                 }
                 Told::LeftOpen(words) => assert!(!words.is_empty()),
             }

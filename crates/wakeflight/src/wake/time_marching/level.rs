@@ -97,10 +97,12 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
         }
         let old = &self.instant.free;
         for filament in 0..old.n_filaments {
-            next.free.core_squared[filament * n_k] = aged_core_squared(&self.options, 0);
+            let release = self.options.release_core(filament % self.options.trailers_per_blade());
+            next.free.core_squared[filament * n_k] = aged_core_squared(&self.options, release, 0);
             for k in 1..n_k {
                 next.free.core_squared[filament * n_k + k] = stretched_core_squared(
                     &self.options,
+                    release,
                     old.core_squared[filament * n_k + k - 1],
                     old.segment_length(filament, k - 1),
                     next.free.segment_length(filament, k),

@@ -37,7 +37,7 @@ def cases() -> list[Planned]:
         Planned(
             name(step, way),
             "arrested-descent",
-            TimeMarchingWake(azimuth_step=f"{step:g} deg", extrapolate=extrapolate),
+            TimeMarchingWake.preset("paper", azimuth_step=f"{step:g} deg", extrapolate=extrapolate),
             12 * (10 / step) ** 2.5,
             revolutions=REVOLUTIONS,
         )

@@ -34,8 +34,8 @@ FLIGHTS = {
 def cases() -> list[Planned]:
     """The two mixed ways."""
     return [
-        Planned("held/time-marching", D, TimeMarchingWake(update_interval="360 deg"), 20),
-        Planned("held/relaxation", D, RelaxationWake(update_interval="90 deg"), 80),
+        Planned("held/time-marching", D, TimeMarchingWake.preset("paper", update_interval="360 deg"), 20),
+        Planned("held/relaxation", D, RelaxationWake.preset("paper", update_interval="90 deg"), 80),
     ]
 
 

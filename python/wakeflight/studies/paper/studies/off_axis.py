@@ -61,7 +61,7 @@ def cases() -> list[Planned]:
     made = []
     for condition, (given, options) in CONDITIONS.items():
         for way, (more, modes) in WAYS.items():
-            model = DynamicInflow() if more is None else TimeMarchingWake(**{**options, **more})
+            model = DynamicInflow() if more is None else TimeMarchingWake.preset("paper", **{**options, **more})
             for maneuver in (PULSE, HANDS_OFF):
                 made.append(Planned(name(condition, way, maneuver.name), maneuver, model, 10, None, given, modes))
     return made

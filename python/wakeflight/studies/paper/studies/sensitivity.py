@@ -38,7 +38,10 @@ def cases() -> list[Planned]:
     """Both wakes with each variant."""
     return [
         Planned(
-            f"wake/{name.replace(' ', '-').replace('°', '-deg')}/{model.name}", "arrested-descent", model(**options), 25
+            f"wake/{name.replace(' ', '-').replace('°', '-deg')}/{model.name}",
+            "arrested-descent",
+            model.preset("paper", **options),
+            25,
         )
         for name, options in VARIANTS.items()
         for model in (RelaxationWake, TimeMarchingWake)

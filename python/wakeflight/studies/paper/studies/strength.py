@@ -21,7 +21,10 @@ if TYPE_CHECKING:
 
     Runs = Mapping[str, xr.Dataset]
 
-WAKES = {"relaxation": RelaxationWake(tip_strength="max"), "time-marching": TimeMarchingWake(tip_strength="max")}
+WAKES = {
+    "relaxation": RelaxationWake.preset("paper", tip_strength="max"),
+    "time-marching": TimeMarchingWake.preset("paper", tip_strength="max"),
+}
 
 
 def cases() -> list[Planned]:

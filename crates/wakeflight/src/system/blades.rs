@@ -1,0 +1,71 @@
+//! Blades of the first rotor as the exchange with the air takes them: at the instants of a flight, and of a periodic motion.
+
+use super::model::System;
+use crate::blade::hub_motion::HubMotion;
+use crate::blade::kinematics::{ModalMotion, PitchMotion};
+use crate::rotor::circulation::BladeInstant;
+use crate::rotor::exchange::{azimuth, row};
+use crate::rotor::speed::Turning;
+
+/// Controls of a system, and what they change by in a second; those that it has not are zero.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Controls {
+    /// Their values [m, or rad on a stand].
+    pub stick: [f64; 4],
+    /// Their rates [m/s, or rad/s].
+    pub rate: [f64; 4],
+}
+
+impl Controls {
+    /// Controls that do not move.
+    pub fn held(stick: [f64; 4]) -> Self {
+        Self { stick, rate: [0.0; 4] }
+    }
+}
+
+impl System {
+    /// Motion of the hub in the states `y`, nothing accelerated.
+    pub fn steady_hub(&self, y: &[f64]) -> HubMotion<f64> {
+        self.hub_motion(0, y, &vec![0.0; y.len()])
+    }
+
+    /// Motion of every blade in the states `y` (n_blades,), nothing accelerated.
+    pub fn modal_motions(&self, y: &[f64]) -> Vec<ModalMotion<f64>> {
+        let still = vec![0.0; y.len()];
+        (0..self.main().n_blades).map(|b| self.modal_motion(0, y, &still, b)).collect()
+    }
+
+    /// A blade with this motion at azimuth `psi` [rad] of the rotor at its nominal speed.
+    pub fn blade_at(&self, psi: f64, modal: ModalMotion<f64>, controls: &Controls) -> BladeInstant {
+        let rotor = self.main();
+        let turning = Turning::steady(rotor.omega);
+        let control = rotor.blade_pitch(controls.stick, controls.rate, psi, turning).into();
+        BladeInstant { psi, modal, control }
+    }
+
+    /// The blades, of these motions (n_blades,), after `step` steps of azimuth of which a revolution has `n`.
+    pub fn blades_after(
+        &self,
+        (step, n): (usize, usize),
+        motions: &[ModalMotion<f64>],
+        controls: &Controls,
+    ) -> Vec<BladeInstant> {
+        let psi = |b: usize| azimuth(row(step, b, motions.len(), n), n);
+        motions.iter().enumerate().map(|(b, modal)| self.blade_at(psi(b), *modal, controls)).collect()
+    }
+
+    /// A blade at every azimuth of a periodic motion (n_azimuths,) with the controls held.
+    pub fn periodic_blades(&self, motions: &[ModalMotion<f64>], stick: [f64; 4]) -> Vec<BladeInstant> {
+        let psi = |k: usize| azimuth(k, motions.len());
+        let at =
+            |(k, modal): (usize, &ModalMotion<f64>)| self.blade_at(psi(k), *modal, &Controls::held(stick));
+        motions.iter().enumerate().map(at).collect()
+    }
+
+    /// Pitch at each of `n` azimuths of a revolution with the controls held.
+    pub fn steady_pitch(&self, n: usize, stick: [f64; 4]) -> Vec<PitchMotion<f64>> {
+        let rotor = self.main();
+        let turning = Turning::steady(rotor.omega);
+        (0..n).map(|k| rotor.blade_pitch(stick, [0.0; 4], azimuth(k, n), turning).into()).collect()
+    }
+}
