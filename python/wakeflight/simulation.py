@@ -325,7 +325,8 @@ def _trimmed_model(start: Trim, inflow: str | InflowModel | None) -> Model:
 def begun(model: Model, start: Trim, progress: Progress | Silent) -> tuple[Exchange, ConvergencePhase]:
     """The exchange at the start of a flight; a marching wake after its convergence phase."""
     n = model.steps_per_revolution
-    exchange = exchange_of(model, start.wake, lambda: model.core.trim_motion(start.problem, start.x, n))
+    core, trimmed = model.core, (start.problem, start.x)
+    exchange = exchange_of(model, start.wake, lambda: core.trim_motion(*trimmed, n), core.trim_sections(*trimmed, 0.0))
     return exchange, converge(exchange, start, progress) if model.inflow.is_marching else ConvergencePhase()
 
 

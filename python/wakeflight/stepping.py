@@ -106,6 +106,7 @@ class Stepping:
         for t0, t1 in self.clock.cut(sticks.pieces(t, end)):
             if t0 > t:
                 inputs = coupling_inputs(sticks, t0, *self.exchange.held(self._step), self._incidence)
+                inputs = self.exchange.remembering(inputs, t)
             self.solver.advance_to(t1, inputs)
         self._y = self.solver.state
         self.seconds["dynamics"] += time.perf_counter() - clock
@@ -113,7 +114,7 @@ class Stepping:
         self._step += 1
         self._stick = sticks.at(end)
         clock = time.perf_counter()
-        self.exchange.reach(self._step, self._y, self._stick, sticks.rate(end))
+        self.exchange.reach(self._step, self._y, self._stick, sticks.rate(end), flown=(end, t, inputs))
         self.seconds["wake"] += time.perf_counter() - clock
 
     def instant(self, sticks: StickPath, ends: bool = False) -> Instant:
@@ -131,7 +132,8 @@ class Stepping:
 
     def _inputs(self, stick: np.ndarray, stick_rate: np.ndarray) -> tuple[_core.Inputs, float]:
         held, mean = self.exchange.held(self._step)
-        return _core.Inputs(stick, stick_rate, self.t, held, mean, self._incidence), mean
+        inputs = _core.Inputs(stick, stick_rate, self.t, held, mean, self._incidence)
+        return self.exchange.remembering(inputs, self.t), mean
 
 
 def coupling_inputs(

@@ -71,7 +71,8 @@ class StandModel(CompiledRotor):
         air = (condition.density, condition.speed_of_sound)
         resolved = resolution(rotor.discretisation, inflow.n_stations)
         mass_flow = "windmill_brake" if windmill else "momentum"
-        chosen = setting(air, not inflow.is_dynamic, resolved, lift=LIFT[blade_model], mass_flow=mass_flow)
+        sections = {"lift": LIFT[blade_model], "mass_flow": mass_flow, **inflow.sections}
+        chosen = setting(air, not inflow.is_dynamic, resolved, **sections)
         motion = (list(condition.velocity), list(condition.rates))
         core = _core.System.stand(json.dumps(rotor.data), chosen, motion, list(condition.higher))
         return cls(rotor, condition, inflow, core, n_harmonics, blade_model, windmill)

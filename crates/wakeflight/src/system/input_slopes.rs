@@ -7,8 +7,8 @@ use super::model::System;
 use crate::numerics::scalar::{Dual, Real};
 use thiserror::Error;
 
-/// Directions carried at once.
-const LANES: usize = 16;
+/// Directions carried at once: few, because the compiler unrolls all of F for each of them.
+const LANES: usize = 4;
 type D = Dual<LANES>;
 
 /// dF/du, row-major, a column for every number of what acts.
@@ -61,6 +61,7 @@ fn constant(inputs: &Inputs, n_rotors: usize) -> Inputs<D> {
         stick_rate: inputs.stick_rate.map(D::cst),
         t_start: inputs.t_start,
         inflow: inflow.collect(),
+        sections: inputs.sections.clone(),
         stabilator_incidence: D::cst(inputs.stabilator_incidence),
         disturbance: Some(disturbance),
     }

@@ -3,10 +3,10 @@
 use super::lag::{Drive, Law, MAX_STATES, States, advanced, equilibrium, rates};
 use super::{Coefficients, DAMPING, Flow, Section};
 use crate::numerics::scalar::Real;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// How a section answers in time.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Model {
     /// The table at the angle of attack of the instant.
@@ -56,11 +56,26 @@ fn sources_of<L: Law>(_: &L) -> &'static [&'static str] {
 impl Model {
     /// Every model, by the name that users type.
     pub const ALL: [(&'static str, Self); 4] = [
-        ("quasi-steady", Self::QuasiSteady),
-        ("attached", Self::Attached),
-        ("oye", Self::Oye),
-        ("hgm", Self::Hgm),
+        (Self::QuasiSteady.name(), Self::QuasiSteady),
+        (Self::Attached.name(), Self::Attached),
+        (Self::Oye.name(), Self::Oye),
+        (Self::Hgm.name(), Self::Hgm),
     ];
+
+    /// Name that users type.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::QuasiSteady => "quasi-steady",
+            Self::Attached => "attached",
+            Self::Oye => "oye",
+            Self::Hgm => "hgm",
+        }
+    }
+
+    /// Whether the wake that a section sheds is in its states.
+    pub fn sheds(self) -> bool {
+        matches!(self, Self::Attached | Self::Hgm)
+    }
 
     /// Name of each state.
     pub fn state_names(self) -> &'static [&'static str] {
