@@ -12,6 +12,13 @@ MAXIMUM = "tip vortex of the largest circulation alone"
 
 MARCHED = "default wake, marched in time"
 
+IN_TIME = {
+    "one tip vortex": {"trailers": "tip"},
+    "one tip vortex, sections attached in time": {"trailers": "tip", "unsteady": "attached"},
+    "one tip vortex, sections hgm": {"trailers": "tip", "unsteady": "hgm"},
+}
+"""Sections in time, and the same wake without; never in a score."""
+
 WAKES = {
     DEFAULT: {},
     SHEET: {"tip_strength": "max", "inboard_wake": "sheet"},
@@ -25,5 +32,5 @@ def wind(rotor, wake=DEFAULT, *, speed, shaft_angle, options=None, **arguments):
         inflow = "dynamic"
     else:
         kind = wf.TimeMarchingWake if wake == MARCHED else wf.RelaxationWake
-        inflow = kind(**WAKES.get(wake, {}), **(options or {}))
+        inflow = kind(**(WAKES | IN_TIME).get(wake, {}), **(options or {}))
     return wf.tunnel(rotor, inflow=inflow, speed=speed, shaft_angle=shaft_angle, **arguments)

@@ -32,9 +32,9 @@ class Exchange:
         self._frozen: tuple | None = None
 
     @classmethod
-    def dynamic(cls, model: CompiledRotor) -> Exchange:
-        """Dynamic inflow, which is in the state."""
-        return cls(model, _core.Exchange.dynamic(model.core, model.steps_per_revolution))
+    def dynamic(cls, model: CompiledRotor, sections: _core.SectionMemory | None = None) -> Exchange:
+        """Dynamic inflow, which is in the state; `sections`: what those of a trim remember at its start."""
+        return cls(model, _core.Exchange.dynamic(model.core, model.steps_per_revolution, sections))
 
     @classmethod
     def relaxation(cls, model: CompiledRotor, trimmed: Trimmed, motion: tuple[np.ndarray, np.ndarray]) -> Exchange:
@@ -70,14 +70,21 @@ class Exchange:
         stick: np.ndarray,
         stick_rate: np.ndarray,
         motion: tuple[np.ndarray, np.ndarray] | None = None,
+        flown: tuple[float, float, _core.Inputs] | None = None,
     ) -> None:
         """States have reached `step`: a marching wake follows, a relaxation wake is renewed where that is due.
 
         stick, stick_rate: controls as the trim has them; a rotor on a stand has no use for the fourth. motion: modal coordinates
-        and rates (n_blades, n_modes) that stand for those of `y`.
+        and rates (n_blades, n_modes) that stand for those of `y`. flown: end and begin of the step [s] and what acted at its
+        end; None: a step of azimuth at the nominal speed.
         """
         n = self.model.n_controls
-        self.core.advance(self.model.core, step, y, (stick[:n], stick_rate[:n]), motion)
+        self.core.advance(self.model.core, step, y, (stick[:n], stick_rate[:n]), motion, flown)
+
+    def remembering(self, inputs: _core.Inputs, begun: float) -> _core.Inputs:
+        """`inputs` of the step that begins at `begun` [s], with what the sections remember there."""
+        sections = self.core.sections
+        return inputs if sections is None else inputs.remembering(sections, begun)
 
     def tips(self, step: int) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
         """Tip vortices after `step` steps, None without a wake.
@@ -177,10 +184,13 @@ class Exchange:
         return self.core.wake()
 
 
-def exchange_of(model: CompiledRotor, trimmed: Trimmed | None, motion: Callable[[], Any]) -> Exchange:
-    """The exchange of `model` from the wake of a trim; `motion` gives the periodic motion of its blades."""
+def exchange_of(
+    model: CompiledRotor, trimmed: Trimmed | None, motion: Callable[[], Any], sections: _core.SectionMemory | None
+) -> Exchange:
+    """The exchange of `model` from the wake of a trim; `motion` gives the periodic motion of its blades, `sections` is what those
+    remember at its start."""
     kinds: dict[str, Callable[[], Exchange]] = {
-        "dynamic": lambda: Exchange.dynamic(model),
+        "dynamic": lambda: Exchange.dynamic(model, sections),
         "relaxation": lambda: Exchange.relaxation(model, trimmed, motion()),
         "time-marching": lambda: Exchange.marching(model, trimmed),
     }

@@ -143,6 +143,11 @@ class CompiledRotor:
         return True
 
     @property
+    def remembers(self) -> bool:
+        """Whether the sections of the blades have states: see the option `unsteady`."""
+        return self.inflow.remembers
+
+    @property
     def has_thin_sections(self) -> bool:
         """Whether the blades lift as thin sections without stall instead of by their tables."""
         return False
@@ -190,7 +195,7 @@ def setting(
     """What the core is built for besides the data, JSON.
 
     Density [kg/m3] and speed of sound [m/s], gravity [m/s2], whether a free wake gives the inflow, discretisation; other: lift of
-    thin sections.
+    thin sections, `Inflow.sections`.
     """
     whole = {
         "air": {"density": air[0], "speed_of_sound": air[1]},
@@ -198,6 +203,8 @@ def setting(
         "free_wake": free_wake,
         "discretisation": resolved,
         "lift": None,
+        "unsteady": "quasi-steady",
+        "yawed_drag": False,
     }
     return json.dumps(whole | other)
 
@@ -259,7 +266,7 @@ class Model(CompiledRotor):
         inflow = inflow.resolved(flight_regime(aircraft, condition))
         inflow.step(aircraft)
         resolved = resolution(aircraft.discretisation, inflow.n_stations)
-        chosen = setting((density, speed_of_sound), not inflow.is_dynamic, resolved)
+        chosen = setting((density, speed_of_sound), not inflow.is_dynamic, resolved, **inflow.sections)
         core = _core.System.aircraft(json.dumps(data), chosen)
         return cls(aircraft, condition, inflow, core, data, density, speed_of_sound, target, n_harmonics)
 

@@ -19,7 +19,6 @@ from typing import Any
 
 import numpy as np
 
-from . import _core
 from .arguments import checked
 from .control import Augmentation, Chain, Sensors, augmentation
 from .engine import Engine, Turning, turning
@@ -230,8 +229,7 @@ class Simulation(Stepping):
         model = self.model
 
         def measure() -> tuple[np.ndarray, dict[str, Any]]:
-            held, mean = self.exchange.held(self._step)
-            inputs = _core.Inputs(self.chain.reached, np.zeros(4), t, held, mean, self._incidence, engine=self._engine)
+            inputs = self._inputs(t, self.chain.reached, np.zeros(4))[0]
             rate = model.core.consistent_rate(t, y, inputs)
             out = model.core.outputs(t, y, rate, inputs)
             return rate, out | {"torque": -model.hand * out["hub_moment"][2]}
@@ -401,7 +399,8 @@ def _trimmed_model(start: Trim, inflow: str | InflowModel | None) -> Model:
 def begun(model: Model, start: Trim, progress: Progress | Silent) -> tuple[Exchange, ConvergencePhase]:
     """The exchange at the start of a flight; a marching wake after its convergence phase."""
     n = model.steps_per_revolution
-    exchange = exchange_of(model, start.wake, lambda: model.core.trim_motion(start.problem, start.x, n))
+    core, trimmed = model.core, (start.problem, start.x)
+    exchange = exchange_of(model, start.wake, lambda: core.trim_motion(*trimmed, n), core.trim_sections(*trimmed, 0.0))
     return exchange, converge(exchange, start, progress) if model.inflow.is_marching else ConvergencePhase()
 
 

@@ -107,7 +107,7 @@ class Stepping:
         self._stick = path.at(end)
         self._turned(end)
         clock = time.perf_counter()
-        self.exchange.reach(self._step, self._y, self._stick, path.rate(end))
+        self.exchange.reach(self._step, self._y, self._stick, path.rate(end), flown=(end, t, inputs))
         self.seconds["wake"] += time.perf_counter() - clock
 
     def _pieces(self, sticks: StickPath, t0: float, t1: float) -> list[tuple[float, float]]:
@@ -135,7 +135,7 @@ class Stepping:
         """The step has ended at `t`: what a rotor has whose speed is a state."""
 
     def _inputs(self, t: float, stick: np.ndarray, rate: np.ndarray) -> tuple[_core.Inputs, float]:
-        """Sticks from `t` on; inflow, stabilator and engines held."""
+        """Sticks from `t` on; inflow, memory of the sections, stabilator and engines held."""
         held, mean = self.exchange.held(self._step)
         inputs = _core.Inputs(stick, rate, t, held, mean, self._incidence, engine=self._engine)
-        return inputs, mean
+        return self.exchange.remembering(inputs, self.t), mean

@@ -2,7 +2,7 @@
 
 import numpy as np
 from hart2 import MINIMUM_NOISE, rotor_in
-from wind import DEFAULT, MARCHED, SHEET
+from wind import DEFAULT, IN_TIME, MARCHED, SHEET
 
 from wakeflight.plotting import style
 from wakeflight.validate import Check, Outcome
@@ -11,6 +11,7 @@ RUNS = {
     DEFAULT: (DEFAULT, {}),
     SHEET: (SHEET, {}),
     MARCHED: (MARCHED, {}),
+    **{name: (name, {}) for name in IN_TIME},
     "default, without the higher harmonic": (DEFAULT, {"higher_harmonics": []}),
     "default, higher harmonic of opposite sign": (
         DEFAULT,
@@ -93,7 +94,8 @@ def draw(measured, found):
     labels = ("M²Cn at 0.87 R", "M²Cm at 0.87 R", "tip flap [% R]", "elastic tip twist [deg], nose up")
     for axes, name, label in zip(panels.flat, measured, labels):
         axes.plot(*measured[name], "k.", ms=3, label="measured")
-        for (run_name, (psi, ours)), color, line in zip(found.items(), style.COLORS, style.LINES):
+        shown = [each for each in found.items() if "attached" not in each[0]]
+        for (run_name, (psi, ours)), color, line in zip(shown, style.COLORS, style.LINES):
             axes.plot(psi, ours[name], line, color=color, lw=1.0, label=run_name)
         axes.set_ylabel(label)
         axes.set_xticks(range(0, 361, 90))

@@ -1,13 +1,14 @@
 """Section normal force at 0.87 R of the HeliNOVI model in climb and descent."""
 
 import numpy as np
-from wind import DEFAULT, MARCHED, SHEET, wind
+from wind import DEFAULT, IN_TIME, MARCHED, SHEET, wind
 
 from wakeflight.plotting import style
 from wakeflight.validate import Check, Outcome
 
 FLIGHTS = {"ID1": ("climb, 12°", "-14.6 deg", 0.00529), "ID5": ("descent, 6°", "4.6 deg", 0.00504)}
-WAKES = {DEFAULT: DEFAULT, SHEET: SHEET, MARCHED: MARCHED, "uniform and first-harmonic dynamic inflow": None}
+WAKES = {DEFAULT: DEFAULT, SHEET: SHEET, MARCHED: MARCHED, "uniform and first-harmonic dynamic inflow": None,
+         **dict(zip(IN_TIME, IN_TIME))}  # fmt: skip
 
 
 def run(case):

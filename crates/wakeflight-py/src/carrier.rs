@@ -5,6 +5,7 @@ use crate::system::{PyInputs, PySystem};
 use pyo3::prelude::*;
 use wakeflight::blade::hub_motion::HubMotion;
 use wakeflight::blade::kinematics::ModalMotion;
+use wakeflight::blade::memory_rows::MemoryRows;
 use wakeflight::rotor::exchange::Place;
 use wakeflight::system::blades::Controls;
 use wakeflight::system::instant::{HeldInflow, Inputs, Instant};
@@ -17,7 +18,18 @@ impl PyInputs {
         if found != needed {
             return Err(invalid(format!("inflow of {found} rotors, {needed} needed")));
         }
-        for (held, (_, rotor, l)) in self.0.inflow.iter().zip(system.inner.each_rotor()) {
+        let none = MemoryRows::default();
+        for (held, (r, rotor, l)) in self.0.inflow.iter().zip(system.inner.each_rotor()) {
+            let memory = self.0.sections.get(r).map_or(&none, |held| &held.memory);
+            if !matches!(held, HeldInflow::Vacuum) && !rotor.remembers(memory, rotor.n_blades) {
+                let [rows, stations] = memory.shape();
+                let asked = if rotor.sections.is_some() {
+                    format!("({}, {}) needed", rotor.n_blades, rotor.blade.stations.len())
+                } else {
+                    "but those of this rotor do not remember".into()
+                };
+                return Err(invalid(format!("sections: memory of ({rows}, {stations}), {asked}")));
+            }
             let needed = rotor.n_blades * rotor.inflow_width();
             match held {
                 HeldInflow::Stations { inflow, .. } if inflow.len() != needed => {

@@ -2,10 +2,11 @@
 
 use crate::checks::{Array, Motion, Named, Row, Table, array, invalid, map, pack, unpack, vectors};
 use crate::options::{marching_options, relaxation_options, wake_options};
-use crate::system::PySystem;
+use crate::system::{PyInputs, PySystem, SectionMemory, remembered};
 use crate::wake::{RelaxationWake, TimeMarchingWake, py_error};
 use pyo3::prelude::*;
 use wakeflight::rotor::exchange::{Exchange, MarchingExchange, Reached, RelaxationExchange, SteadyWake};
+use wakeflight::system::instant::Instant;
 use wakeflight::wake;
 
 /// Relaxation wake of a periodic motion with its circulation and inflow; see `wakeflight.trim.wake`.
@@ -131,10 +132,18 @@ impl PyExchange {
 
 #[pymethods]
 impl PyExchange {
-    /// Dynamic inflow of a rotor, `n` steps in a revolution: in the state, nothing to exchange.
+    /// Dynamic inflow of a rotor, `n` steps in a revolution: in the state, nothing to exchange; memory of sections that remember.
     #[staticmethod]
-    fn dynamic(core: &PySystem, n: usize) -> Self {
-        Self { inner: Exchange::Dynamic, n_blades: core.inner.main().n_blades, n }
+    #[pyo3(signature = (core, n, sections=None))]
+    fn dynamic(core: &PySystem, n: usize, sections: Option<PyRef<SectionMemory>>) -> PyResult<Self> {
+        let (rotor, memory) = (core.inner.main(), sections.map_or_else(Default::default, |s| s.0.clone()));
+        if !rotor.remembers(&memory, rotor.n_blades) {
+            let [rows, stations] = memory.shape();
+            return Err(invalid(format!(
+                "sections: memory of ({rows}, {stations}) is not that of the rotor"
+            )));
+        }
+        Ok(Self { inner: Exchange::Dynamic(memory), n_blades: rotor.n_blades, n })
     }
 
     /// Relaxation wake from that of a trim and the periodic motion of its blades (n_azimuths, n_modes).
@@ -170,9 +179,16 @@ impl PyExchange {
         (held.inflow.map(|values| array(values, &[self.n_blades])), held.mean)
     }
 
+    /// Memory of sections that remember where the step begins; None where they do not.
+    #[getter]
+    fn sections(&self) -> Option<SectionMemory> {
+        remembered(self.inner.memory())
+    }
+
     /// States `y` and `sticks`, with their rates, have reached `step`: the air answers. `motion`: modal coordinates and rates
-    /// (n_blades, n_modes) that stand for those of `y`.
-    #[pyo3(signature = (core, step, y, sticks, motion=None))]
+    /// (n_blades, n_modes) that stand for those of `y`. `flown`: end and begin of the step [s] and what acted at its end; a step of
+    /// azimuth at the nominal speed where nothing was flown.
+    #[pyo3(signature = (core, step, y, sticks, motion=None, flown=None))]
     fn advance(
         &mut self,
         py: Python<'_>,
@@ -181,8 +197,15 @@ impl PyExchange {
         y: Row,
         sticks: (Row, Row),
         motion: Option<Motion>,
+        flown: Option<(f64, f64, PyRef<PyInputs>)>,
     ) -> PyResult<()> {
-        if matches!(self.inner, Exchange::Dynamic) {
+        if let Exchange::Dynamic(memory) = &mut self.inner {
+            if let (Some((t, _, inputs)), false) = (&flown, memory.is_empty()) {
+                let y = core.state("y", &y)?;
+                let still = vec![0.0; y.len()];
+                let at = Instant { t: *t, y, y_dot: &still, inputs: inputs.fitting(core)? };
+                *memory = core.inner.kept_memory(&at);
+            }
             return Ok(());
         }
         let (system, n, found) = (&core.inner, self.n, core.inner.main().n_blades);
@@ -197,7 +220,8 @@ impl PyExchange {
         let blades = &system.blades_after((step, n), &motions, &controls);
         let renewed = self.inner.renews(step);
         let steady_pitch = &if renewed { system.steady_pitch(n, controls.stick) } else { Vec::new() };
-        let reached = Reached { place: core.place(&hub), blades, steady_pitch };
+        let elapsed = flown.map_or_else(|| system.main().nominal_step(n), |(end, begun, _)| end - begun);
+        let reached = Reached { place: core.place(&hub), blades, steady_pitch, elapsed };
         py.detach(|| self.inner.advance(step, &reached)).map_err(py_error)
     }
 

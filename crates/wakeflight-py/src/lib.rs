@@ -30,7 +30,7 @@ mod _core {
         flight::{FixedStep, Linearised},
         inflow::{descent_inflow, momentum_inflow, pitt_peters_rate},
         options::{check_options, option_descriptors},
-        system::{PyInputs, PySystem},
+        system::{PyInputs, PySystem, SectionMemory},
         trim::{TrimLayout, TrimProblem},
         vortex::{induced_velocity, instruction_set, set_threads},
         wake::{RelaxationWake, TimeMarchingWake, near_wake_matrix, wing_circulation},

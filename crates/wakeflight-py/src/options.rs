@@ -65,7 +65,10 @@ pub fn check_options(options_json: &str) -> PyResult<()> {
         Some(rotor) => WakeOptions { rotor, ..given.wake },
         None => given.wake,
     };
-    let checked = given.rotor.map_or_else(|| wake.check_alone(), |_| wake.validate());
+    // without vortices there is nothing that sheds
+    let free = given.relaxation.is_some() || given.marching.is_some();
+    let shed = if free { wake.check_shed_wake() } else { Ok(()) };
+    let checked = given.rotor.map_or_else(|| wake.check_alone().and(shed), |_| wake.validate());
     let relaxation = given.relaxation.map_or(Ok(()), |own| own.validate());
     let marching = given.marching.map_or(Ok(()), |own| own.validate(&wake));
     let annular = given.annular.map_or(Ok(()), |own| own.check());

@@ -1,6 +1,8 @@
 //! The system: F, its Jacobian, trim equations, what a run records.
 
-use crate::checks::{Array, Named, Room, Row, Table, array, failed, instruction_set, invalid, room, sized};
+use crate::checks::{
+    Array, Named, Room, Row, Table, array, failed, instruction_set, invalid, pack, room, sized,
+};
 use crate::trim::{TrimLayout, TrimProblem};
 use numpy::Ix2;
 use pyo3::prelude::*;
@@ -8,6 +10,7 @@ use pyo3::types::PyDict;
 use wakeflight::airframe::servo::Scheduled;
 use wakeflight::blade::hub_motion::HubMotion;
 use wakeflight::blade::kinematics::ModalMotion;
+use wakeflight::blade::memory_rows::MemoryRows;
 use wakeflight::numerics::frames::Vec3;
 use wakeflight::rotor::data::RotorData;
 use wakeflight::rotor::drive::Drive;
@@ -17,8 +20,25 @@ use wakeflight::rotor::swashplate::{PitchHarmonic, Rigging};
 use wakeflight::system::blades::Controls;
 use wakeflight::system::carrier::Stand;
 use wakeflight::system::data::AircraftData;
-use wakeflight::system::instant::{EngineInput, HeldInflow, Inputs};
+use wakeflight::system::instant::{EngineInput, HeldInflow, HeldMemory, Inputs};
 use wakeflight::system::model::{Setting, System};
+
+/// Memory of sections that remember, blade by blade, where a coupling step begins; see `wakeflight.exchange`.
+#[pyclass(frozen)]
+pub struct SectionMemory(pub(crate) MemoryRows);
+
+#[pymethods]
+impl SectionMemory {
+    /// Everything of it, exact.
+    fn to_bytes(&self) -> PyResult<Vec<u8>> {
+        pack(&self.0)
+    }
+}
+
+/// Memory for Python; None where sections do not remember.
+pub(crate) fn remembered(memory: &MemoryRows) -> Option<SectionMemory> {
+    (!memory.is_empty()).then(|| SectionMemory(memory.clone()))
+}
 
 /// What acts on the system over one coupling step; see `wakeflight.flight`.
 #[pyclass(name = "Inputs", frozen)]
@@ -52,10 +72,16 @@ impl PyInputs {
             stick_rate,
             t_start,
             inflow: vec![inflow],
+            sections: Vec::new(),
             stabilator_incidence,
             engine: EngineInput { torque: engine.0, fuel: engine.1 },
             disturbance: None,
         }))
+    }
+
+    /// The same with the memory of sections that remember, from the begin of the coupling step at `begun` [s].
+    fn remembering(&self, sections: &SectionMemory, begun: f64) -> Self {
+        Self(Inputs { sections: vec![HeldMemory { memory: sections.0.clone(), begun }], ..self.0.clone() })
     }
 }
 
@@ -293,8 +319,8 @@ impl PySystem {
         Ok((array(flap, &[]), array(lead, &[])))
     }
 
-    /// Circulation (n_stations,) [m2/s] of one blade's sections for inflow (n_stations,) and a hub in motion: velocity [m/s], rates
-    /// [rad/s]; `blade`: azimuth, modal coordinates and rates.
+    /// Quasi-steady circulation (n_stations,) [m2/s] of one blade's sections for inflow (n_stations,) and a hub in motion: velocity
+    /// [m/s], rates [rad/s]; `blade`: azimuth, modal coordinates and rates.
     fn section_circulation(
         &self,
         hub: ([f64; 3], [f64; 3]),
@@ -310,22 +336,32 @@ impl PySystem {
         let blade = self.inner.blade_at(blade.0, modal, &Controls::held(self.controls("stick", &stick)?));
         let lambda = sized("inflow", &inflow, rotor.blade.stations.len())?;
         let (mut gamma, mut slope) = (vec![0.0; lambda.len()], vec![0.0; lambda.len()]);
-        rotor.section_circulation(self.inner.air, &hub, &blade, lambda, &mut gamma, &mut slope);
+        rotor.section_circulation(self.inner.air, &hub, (&blade).into(), lambda, &mut gamma, &mut slope);
         Ok(array(gamma, &[]))
+    }
+
+    /// Memory of sections that remember at time `t` [s] of the trimmed revolution; None where they do not.
+    fn trim_sections(&self, problem: &TrimProblem, x: Row, t: f64) -> PyResult<Option<SectionMemory>> {
+        let (trim, x) = problem.solved(&self.inner, &x)?;
+        Ok(remembered(&trim.memory_at(x, t)))
     }
 
     /// Loads of one blade on the hub and the air at its stations, for azimuths `psi` (m,) of the periodic motion `x` and total
     /// inflow (m, n_stations), None for the dynamic inflow in `x`: a dictionary of arrays, in the axes of the rotor's sense.
+    /// `sections`: memory, (m,) blades together, of sections that remember; None: that of the periodic motion.
+    #[pyo3(signature = (problem, x, psi, inflow, sections=None))]
     fn passages(
         &self,
         problem: &TrimProblem,
         x: Row,
         psi: Row,
         inflow: Option<Table>,
+        sections: Option<Vec<PyRef<SectionMemory>>>,
     ) -> PyResult<Named<Array>> {
         let ((trim, x), psi) = (problem.solved(&self.inner, &x)?, psi.as_slice()?);
         let held = inflow.map(|given| self.inflow(&given, psi.len())).transpose()?;
-        let found = trim.passages(x, psi, held.as_deref()).map_err(invalid)?;
+        let memory = sections.map(|all| MemoryRows::joined(all.iter().map(|each| &each.0)));
+        let found = trim.passages(x, psi, held.as_deref(), memory.as_ref()).map_err(invalid)?;
         let names = ["force", "moment", "aero_force", "aero_moment"].into_iter().chain(FIELDS);
         let values = found.loads.into_iter().chain(found.fields);
         Ok(names.zip(values.map(|each| array(each, &[psi.len()]))).collect())

@@ -7,6 +7,7 @@ use mechanics_support::beam_support::uh60a;
 use mechanics_support::*;
 use wakeflight::blade::hub_motion as blade;
 use wakeflight::blade::kinematics::ModalMotion;
+use wakeflight::blade::memory_rows::MemoryRows;
 use wakeflight::inflow::momentum::momentum_inflow;
 use wakeflight::rotor::circulation::BladeInstant;
 use wakeflight::rotor::exchange::{MarchingExchange, Place, SteadyWake, azimuth, row};
@@ -109,9 +110,12 @@ fn the_exchange_adds_nothing_to_the_wake_that_stands_alone() {
     for step in 1..n / 2 {
         let now: Vec<BladeInstant> =
             (0..rotor.n_blades).map(|b| blades[row(step, b, rotor.n_blades, n)]).collect();
-        exchange.advance(&place, &now).unwrap();
+        exchange.advance(&place, &now, rotor.nominal_step(n)).unwrap();
         let solved = |far: &[f64], start: &[f64]| {
-            rotor.circulations(system.air, &options, &hub, &now, far, start).unwrap().gamma
+            rotor
+                .circulations(system.air, &options, &hub, (&now, &MemoryRows::default()), far, start)
+                .unwrap()
+                .gamma
         };
         gamma = solved(&far, &gamma);
         let state = |blade: &BladeInstant| {

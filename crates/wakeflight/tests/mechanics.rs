@@ -73,7 +73,7 @@ fn vacuum_loads(
 ) -> BladeLoads<f64> {
     let airfoils = StationAirfoils::uniform(airfoil(), blade.stations.len());
     let air = Air { density: 1.0, speed_of_sound: 340.0 };
-    let environment = BladeEnvironment { airfoils: &airfoils, air, rotor_speed: OMEGA };
+    let environment = BladeEnvironment { airfoils: &airfoils, air, rotor_speed: OMEGA, yawed_drag: false };
     blade.loads(&environment, hub, psi, m, pitch, &BladeInflow::Vacuum)
 }
 
@@ -282,7 +282,7 @@ fn frequency_error(n_gauss: usize) -> f64 {
     let blade = blade_with(&beam_support::uh60a(), n_gauss);
     let airfoils = StationAirfoils::uniform(airfoil(), blade.stations.len());
     let air = Air { density: 1.0, speed_of_sound: 340.0 };
-    let environment = BladeEnvironment { airfoils: &airfoils, air, rotor_speed: OMEGA };
+    let environment = BladeEnvironment { airfoils: &airfoils, air, rotor_speed: OMEGA, yawed_drag: false };
     let hub: HubMotion<D> = still_hub().constant();
     let c = D::cst;
     let pitch = PitchMotion { theta: c(0.3), theta_dot: c(0.0), theta_ddot: c(0.0) };

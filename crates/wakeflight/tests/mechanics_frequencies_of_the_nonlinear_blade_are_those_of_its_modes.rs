@@ -26,7 +26,8 @@ fn linearised(blade: &Blade) -> ([f64; N], [[f64; 15]; N]) {
     };
     let modal = ModalMotion { q: variables(0), q_dot: variables(5), q_ddot: variables(10) };
     let airfoils = StationAirfoils::uniform(smooth_airfoil(6.0, 0.0, 0.01, 0.0), blade.stations.len());
-    let environment = BladeEnvironment { airfoils: &airfoils, air: AIR, rotor_speed: OMEGA };
+    let environment =
+        BladeEnvironment { airfoils: &airfoils, air: AIR, rotor_speed: OMEGA, yawed_drag: false };
     let loads = blade.loads(
         &environment,
         &hub_at_rest(),

@@ -107,7 +107,8 @@ fn errors(blade: &Blade, g: f64, path: &Path, t: f64) -> [f64; 3] {
     let control =
         PitchMotion { theta: pitch(t), theta_dot: 0.15 * OMEGA * c, theta_ddot: -0.15 * OMEGA * OMEGA * s };
     let airfoils = StationAirfoils::uniform(smooth_airfoil(6.0, 0.0, 0.01, 0.0), blade.stations.len());
-    let environment = BladeEnvironment { airfoils: &airfoils, air: AIR, rotor_speed: OMEGA };
+    let environment =
+        BladeEnvironment { airfoils: &airfoils, air: AIR, rotor_speed: OMEGA, yawed_drag: false };
     let found = blade.loads(&environment, &hub, OMEGA * t, &modal, &control, &BladeInflow::Vacuum);
 
     // Q_i = -(d/dt dT/dq_dot - dT/dq) - dV/dq

@@ -5,6 +5,7 @@ mod mechanics_support;
 use mechanics_support::beam_support::uh60a;
 use mechanics_support::*;
 use wakeflight::airfoil::span::SpanSections;
+use wakeflight::airfoil::unsteady::Model;
 use wakeflight::system::instant::{Disturbance, EngineInput, HeldInflow, Inputs};
 use wakeflight::system::model::System;
 
@@ -81,7 +82,23 @@ fn cases(smooth: bool) -> Vec<(System, Inputs, &'static str)> {
     let pulled = Inputs { engine: EngineInput { torque: 4e4, fuel: 1.0 }, ..moving.clone() };
     let mut both = moving.clone();
     both.inflow.push(HeldInflow::Dynamic);
+    // sections that remember, 17 ms after a step began in another state
+    let mut remembers = |system: &System, model: Model, inputs: &Inputs| {
+        let system = in_time(system.clone(), model);
+        let inputs = remembering(&system, inputs, 0.106, &mut random);
+        (system, inputs)
+    };
+    let stations = inputs(STICK, HeldInflow::Stations { inflow: inflow.clone(), mean: 0.03 });
+    let (attached, attached_inputs) = remembers(&dynamic, Model::Attached, &moving);
+    let (oye, oye_inputs) = remembers(&held, Model::Oye, &stations);
+    let (hgm, hgm_inputs) = remembers(&general, Model::Hgm, &stations);
+    let (turning, turning_inputs) =
+        remembers(&changing_speed(on_stand(&data, false), 0.8, 0.3), Model::Hgm, &moving);
     vec![
+        (attached, attached_inputs, "attached flow in time, dynamic inflow"),
+        (oye, oye_inputs, "separation in time, held station inflow"),
+        (hgm, hgm_inputs, "stall in time, two sections along the span"),
+        (turning, turning_inputs, "stall in time, a stand, rotor speed falling"),
         (build(&tandem(&data), false, 9.80665), both, "two rotors, the second clockwise"),
         (on_stand(&data, false), moving.clone(), "a stand, dynamic inflow"),
         (changing_speed(dynamic.clone(), 0.8, 0.3), moving.clone(), "rotor speed falling"),

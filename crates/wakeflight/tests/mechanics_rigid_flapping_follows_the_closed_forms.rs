@@ -60,7 +60,8 @@ impl Case {
         let blade = self.blade();
         let airfoils = StationAirfoils::uniform(smooth_airfoil(TAU, 0.0, 0.0, 0.0), blade.stations.len());
         let air = Air { density: self.density(), speed_of_sound: 340.0 };
-        let environment = BladeEnvironment { airfoils: &airfoils, air, rotor_speed: OMEGA };
+        let environment =
+            BladeEnvironment { airfoils: &airfoils, air, rotor_speed: OMEGA, yawed_drag: false };
         let mut hub = hub_at_rest::<D>();
         hub.velocity = Vec3::cst([-self.mu * OMEGA * RADIUS, 0.0, 0.0]);
         let flap = blade.flap_mode;

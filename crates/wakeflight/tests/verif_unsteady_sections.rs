@@ -55,6 +55,7 @@ fn flow<S: Real>(alpha: S, pitch_rate: S, mach: f64) -> Flow<S> {
         alpha: alpha + pitch_rate * (0.5 * CHORD) / speed,
         alpha_quarter: alpha,
         pitch_rate,
+        turn_rate: pitch_rate,
         speed,
         speed_of_sound: SOUND,
     }
@@ -174,6 +175,7 @@ fn moving(t: f64) -> Flow<f64> {
         alpha: alpha + 0.5 * rate * CHORD / speed,
         alpha_quarter: alpha,
         pitch_rate: rate,
+        turn_rate: rate,
         speed,
         speed_of_sound: SOUND,
     }

@@ -97,6 +97,8 @@ def dynamic_map(
     n = n_azimuths or model.steps_per_revolution
     inflow_map = inflow_of_states(model, problem, x, n)
     psi = 2 * np.pi * np.arange(n) / n
+    if model.remembers:
+        return inflow_map, model.core.passages(problem, x, psi, inflow_map)["circulation"]
     q, q_dot = model.core.trim_motion(problem, x, n)
     y, _ = model.core.trim_state(problem, x, 0.0)
     hub = model.core.hub(y)

@@ -18,6 +18,10 @@ from .equations import scales, tolerances
 
 LARGEST_STEP = 30.0
 """Longest correction of one unknown in its scale: 3 in of stick, 30 deg, 0.03 of inflow, 3 deg of a blade harmonic."""
+WORTH = 0.1
+"""Share of what was missing that a step beyond one that meets the equations must leave at most, to be worth its cost."""
+WORTH_IN_TIME = 0.7
+"""The same where sections remember: derivatives hold their lags, and each step leaves about the share of lift that lags."""
 LEAST_SHARE = 1.0 / 64.0
 """Least share of a correction that is tried."""
 ITERATIONS = 40
@@ -54,10 +58,11 @@ def newton(
     f = core.trim_residual(problem, x)
     best = (np.inf, x)
     steps = 0
+    worth = WORTH_IN_TIME if model.remembers else WORTH
     while steps < iterations and np.all(np.isfinite(f)) and work.spend():
         steps += 1
         level = float(np.max(np.abs(f) / allowed))
-        if best[0] <= 1.0 and level > 0.1 * best[0]:
+        if best[0] <= 1.0 and level > worth * best[0]:
             break  # met, and as near as the kinks of the tables allow
         if level < best[0]:
             best = (level, x)

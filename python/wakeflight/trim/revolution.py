@@ -25,7 +25,9 @@ def inputs(
         n = inflow_map.shape[0]
         held = inflow_map[rows_of(model, n, round(model.omega * t / (2 * np.pi) * n))]
         mean = model.disk_mean(inflow_map)
-    return _core.Inputs(x[:4], np.zeros(4), 0.0, held, mean, model.core.trim_stabilator(problem, x))
+    acting = _core.Inputs(x[:4], np.zeros(4), 0.0, held, mean, model.core.trim_stabilator(problem, x))
+    sections = model.core.trim_sections(problem, x, t)
+    return acting if sections is None else acting.remembering(sections, t)
 
 
 def instants(

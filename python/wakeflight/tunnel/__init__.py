@@ -194,6 +194,8 @@ def _prepared(aircraft: Any, inflow: Any, given: dict[str, Any]) -> tuple[Rotor,
     blade_model = given["blade_model"]
     if blade_model not in BLADE_MODELS:
         raise InputError.choice("blade_model", blade_model, BLADE_MODELS)
+    if blade_model != BLADE_MODELS[0] and model.remembers:
+        raise InputError.of("unsteady", model.unsteady, f"must be quasi-steady with blade_model = {blade_model}")
     if not isinstance(given["prandtl_glauert"], bool):
         raise InputError.of("prandtl_glauert", given["prandtl_glauert"], "must be True or False")
     if model.name == "annular":

@@ -66,7 +66,7 @@ class StandModel(CompiledRotor):
         inflow.step(rotor)
         air = (condition.density, condition.speed_of_sound)
         resolved = resolution(rotor.discretisation, inflow.n_stations)
-        chosen = setting(air, not inflow.is_dynamic, resolved, lift=LIFT[blade_model])
+        chosen = setting(air, not inflow.is_dynamic, resolved, lift=LIFT[blade_model], **inflow.sections)
         motion = (list(condition.velocity), list(condition.rates))
         core = _core.System.stand(json.dumps(rotor.data), chosen, motion, list(condition.higher))
         return cls(rotor, condition, inflow, core, n_harmonics, blade_model)

@@ -243,18 +243,20 @@ def march_revolution(
     snapshots: list[_core.TimeMarchingWake],
 ) -> Revolution:
     """One revolution at the motion and pitch of `x`; `snapshots` then holds the wake of each of its steps."""
-    rows, inflow, path, watched = [], [], [], []
+    rows, inflow, path, watched, remembered = [], [], [], [], []
     snapshots.clear()
     for _ in range(march.n):
         row, lam, _ = march.frozen_step(problem, x)
         rows.append(row)
         inflow.append(lam)
+        remembered.append(march.core.sections)
         path.append(march.position())
         watched.append(march.monitors)
         snapshots.append(march.wake())
     rows, inflow = np.array(rows), np.array(inflow)
     psi = 2 * np.pi * rows.ravel() / march.n
-    passages = model.core.passages(problem, x, psi, inflow.reshape(psi.size, -1))
+    sections = remembered if model.remembers else None
+    passages = model.core.passages(problem, x, psi, inflow.reshape(psi.size, -1), sections)
     shape = (march.n, model.n_blades, -1)
     passages = {name: values.reshape(shape) for name, values in passages.items()}
     return Revolution(

@@ -163,8 +163,11 @@ class OnStand(Stepping):
         s = stand.solution
         # the clock that azimuths are read from goes on from the wake's
         self.first = 0 if s.march is None else s.march.step_index
-        self.exchange = Exchange.dynamic(model) if s.march is None else s.march.copy()
-        y, _ = model.core.trim_state(s.problem, s.x, model.clock.time(self.first))
+        begun, trimmed = model.clock.time(self.first), (s.problem, s.x)
+        dynamic = s.march is None
+        sections = model.core.trim_sections(*trimmed, begun) if dynamic else None
+        self.exchange = Exchange.dynamic(model, sections) if dynamic else s.march.copy()
+        y, _ = model.core.trim_state(*trimmed, begun)
         self._begin(model, FixedIntegrator(model), y, s.x[:3], self.first)
 
 

@@ -4,6 +4,7 @@
 //! neighbours' tables, exact because both are bilinear on the cells of the union of their axes. Values and derivatives are
 //! then those of one table, whatever the number of sections.
 
+use super::unsteady::Separation;
 use super::{Airfoil, AirfoilError, AirfoilTables, Axis};
 use serde::Deserialize;
 use std::f64::consts::PI;
@@ -105,6 +106,27 @@ impl StationAirfoils {
     #[inline(always)]
     pub fn at(&self, j: usize) -> &Airfoil {
         &self.airfoils[self.of_station[j]]
+    }
+}
+
+/// The separation of every station, found from its table.
+#[derive(Clone, Debug)]
+pub struct StationSeparations {
+    separations: Vec<Separation>,
+    of_station: Vec<usize>,
+}
+
+impl StationSeparations {
+    /// Of the tables of `airfoils`.
+    pub fn of(airfoils: &StationAirfoils) -> Self {
+        let separations = airfoils.airfoils.iter().map(Separation::of).collect();
+        Self { separations, of_station: airfoils.of_station.clone() }
+    }
+
+    /// Separation of station `j`.
+    #[inline(always)]
+    pub fn at(&self, j: usize) -> &Separation {
+        &self.separations[self.of_station[j]]
     }
 }
 

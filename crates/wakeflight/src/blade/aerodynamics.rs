@@ -54,6 +54,27 @@ pub struct SectionAir<S> {
     pub moment: Vec3<S, BladeAxes>,
 }
 
+impl<S: Real> SectionAir<S> {
+    /// Turns the drag along the whole `wind`, relative to the point of the elastic axis, instead of its part normal to the span: of
+    /// a section in yawed flow the boundary layer goes with the air, lift is that of the flow normal to the span.
+    pub(super) fn turn_drag(
+        &mut self,
+        air: &Air,
+        station: &StationGeometry,
+        motion: &SectionMotion<S>,
+        wind: Vec3<S, BladeAxes>,
+    ) {
+        let (c, n, t) = (motion.c, motion.n, motion.t);
+        let along = wind.dot(t);
+        let whole = (self.speed * self.speed + along * along).sqrt();
+        let drag = self.cd * (0.5 * air.density * station.chord * station.width);
+        let normal = c * wind.dot(c) + n * wind.dot(n);
+        let more = normal * (drag * (whole - self.speed)) + t * (drag * whole * along);
+        self.force += more;
+        self.moment += c.cross(more) * S::cst(station.quarter);
+    }
+}
+
 /// Air loads of a section. `wind` is the velocity of the air relative to the point of the elastic axis,
 /// `omega` the section's absolute angular velocity (both blade axes).
 #[inline(always)]
@@ -152,53 +173,4 @@ pub(super) fn section_flow<S: Real>(
     let mach = speed / air.speed_of_sound;
     let (cl, cd, cm) = airfoil.coefficients(alpha, mach);
     SectionFlow { alpha, speed, mach, cl, cd, cm }
-}
-
-/// Wind of a section without inflow and what inflow takes off it: all that its circulation needs of the blade's motion.
-#[derive(Clone, Copy, Debug)]
-pub struct SectionWind {
-    /// Along the chord [m/s].
-    wind_c: f64,
-    /// Normal to the chord at the quarter chord [m/s].
-    quarter_n: f64,
-    /// Normal to the chord at the three-quarter chord [m/s].
-    three_quarter_n: f64,
-    /// Components of the shaft's direction along c and n, times the tip speed [m/s].
-    up: [f64; 2],
-    chord: f64,
-}
-
-impl SectionWind {
-    /// From the wind without inflow, the section's angular velocity and the direction of the shaft.
-    pub fn new(
-        station: &StationGeometry,
-        motion: &SectionMotion<f64>,
-        wind: Vec3<f64, BladeAxes>,
-        omega: Vec3<f64, BladeAxes>,
-        up: Vec3<f64, BladeAxes>,
-        tip_speed: f64,
-    ) -> Self {
-        let wind_n = wind.dot(motion.n);
-        let spin_n = omega.cross(motion.c).dot(motion.n);
-        Self {
-            wind_c: wind.dot(motion.c),
-            quarter_n: wind_n - spin_n * station.quarter,
-            three_quarter_n: wind_n - spin_n * station.three_quarter,
-            up: [up.dot(motion.c) * tip_speed, up.dot(motion.n) * tip_speed],
-            chord: station.chord,
-        }
-    }
-
-    /// Bound circulation [m2/s] at inflow `lambda`.
-    pub fn circulation<S: Real>(&self, airfoil: &Airfoil, air: &Air, lambda: S) -> S {
-        let (along, normal) = (lambda * -self.up[0], lambda * -self.up[1]);
-        let flow = section_flow(
-            airfoil,
-            air,
-            along + self.wind_c,
-            normal + self.quarter_n,
-            normal + self.three_quarter_n,
-        );
-        flow.cl * flow.speed * (0.5 * self.chord)
-    }
 }

@@ -5,14 +5,17 @@
 //! hub are six more test motions of the same sums: hinge, damper and pitch-link loads act inside and do not appear.
 
 use super::MAX_MODES;
-use super::aerodynamics::{SectionAir, SectionWind, section_air};
+use super::aerodynamics::{SectionAir, section_air};
 use super::hub_loads::{BladeLoads, Sum};
 use super::hub_motion::{Carrier, HubMotion};
 use super::kinematics::{BladeAxes, ModalMotion, PitchMotion, SectionMotion, combine};
 use super::model::Blade;
+use super::section_wind::SectionWind;
+use super::sections_in_time::{Moving, PlainInflow};
 use super::stations::{AeroStation, StructuralPoint};
 use super::strain::add_strain_gradient;
 use super::surroundings::{BladeEnvironment, BladeInflow};
+use crate::airfoil::unsteady::Flow;
 use crate::numerics::frames::Vec3;
 use crate::numerics::scalar::Real;
 
@@ -172,6 +175,24 @@ impl Blade {
         })
     }
 
+    /// Flow of every station, as sections in time take it; velocities need no accelerations, so `modal.q_ddot` is ignored.
+    pub fn flows<'a>(
+        &'a self,
+        environment: BladeEnvironment<'a>,
+        hub: &HubMotion<f64>,
+        psi: f64,
+        modal: &'a ModalMotion<f64>,
+        control: &'a PitchMotion<f64>,
+        inflow: &'a BladeInflow<'a, f64>,
+    ) -> impl Iterator<Item = Flow<f64>> {
+        let carrier = Carrier::new(hub, psi, self.precone, environment.rotor_speed);
+        self.stations.iter().enumerate().map(move |(j, station)| {
+            let (motion, wind, omega) = self.station_wind(&environment, &carrier, modal, control, inflow, j);
+            let moving = Moving { geometry: &station.geometry, motion: &motion, wind, omega };
+            moving.flow(environment.air.speed_of_sound)
+        })
+    }
+
     /// Wind of every station without inflow, into `winds`.
     pub fn section_winds(
         &self,
@@ -231,15 +252,10 @@ impl Blade {
         inflow: &BladeInflow<S>,
         j: usize,
     ) -> (SectionMotion<S>, SectionAir<S>) {
-        let station: &AeroStation = &self.stations[j];
-        let pitch = PitchMotion { theta: control.theta + station.twist, ..*control };
-        let m = station.shapes.motion(self.n_modes, modal, &pitch);
-        let lambda = self.inflow_at(inflow, carrier, &m, j);
+        let (m, wind, omega) = self.station_wind(environment, carrier, modal, control, inflow, j);
         let tip_speed = environment.rotor_speed * self.radius;
-        let wind = -(carrier.velocity + carrier.omega.cross(m.position) + m.velocity)
-            - carrier.up * (lambda * tip_speed);
-        let omega = carrier.omega + m.omega;
-        let (airfoil, air, geometry) = (environment.airfoils.at(j), &environment.air, &station.geometry);
+        let (airfoil, air, geometry) =
+            (environment.airfoils.at(j), &environment.air, &self.stations[j].geometry);
         let thin = match inflow {
             BladeInflow::ThreeQuarter { law, .. } => Some((law, wind)),
             BladeInflow::TwoLines { law, quarter, three_quarter } => {
@@ -248,11 +264,39 @@ impl Blade {
             }
             _ => None,
         };
-        let air = match thin {
-            None => section_air(airfoil, air, geometry, &m, wind, omega),
-            Some((law, behind)) => law.air(airfoil, air, geometry, &m, [wind, behind], omega),
+        let mut found = match (thin, inflow) {
+            (None, BladeInflow::InTime { sections, .. }) => {
+                sections.air(j, (airfoil, air), &Moving { geometry, motion: &m, wind, omega })
+            }
+            (None, _) => section_air(airfoil, air, geometry, &m, wind, omega),
+            (Some((law, behind)), _) => law.air(airfoil, air, geometry, &m, [wind, behind], omega),
         };
-        (m, air)
+        if environment.yawed_drag {
+            found.turn_drag(air, geometry, &m, wind);
+        }
+        (m, found)
+    }
+
+    /// Motion of a station, wind relative to its elastic axis with the inflow in it, and absolute angular velocity.
+    #[inline(always)]
+    fn station_wind<S: Real>(
+        &self,
+        environment: &BladeEnvironment,
+        carrier: &Carrier<S>,
+        modal: &ModalMotion<S>,
+        control: &PitchMotion<S>,
+        inflow: &BladeInflow<S>,
+        j: usize,
+    ) -> (SectionMotion<S>, Vec3<S, BladeAxes>, Vec3<S, BladeAxes>) {
+        let station: &AeroStation = &self.stations[j];
+        let pitch = PitchMotion { theta: control.theta + station.twist, ..*control };
+        let m = station.shapes.motion(self.n_modes, modal, &pitch);
+        let lambda = self.inflow_at(inflow, carrier, &m, j);
+        let tip_speed = environment.rotor_speed * self.radius;
+        let wind = -(carrier.velocity + carrier.omega.cross(m.position) + m.velocity)
+            - carrier.up * (lambda * tip_speed);
+        let omega = carrier.omega + m.omega;
+        (m, wind, omega)
     }
 
     #[inline(always)]
@@ -264,12 +308,15 @@ impl Blade {
         j: usize,
     ) -> S {
         match inflow {
-            BladeInflow::Disk([mean, sine, cosine]) => {
+            BladeInflow::Disk([mean, sine, cosine])
+            | BladeInflow::InTime { inflow: PlainInflow::Disk([mean, sine, cosine]), .. } => {
                 let place = carrier.to_hub(m.position);
                 *mean + (*cosine * place.x + *sine * place.y) / self.radius
             }
-            BladeInflow::Stations(values) => S::cst(values[j]),
-            BladeInflow::Variable(values) => values[j],
+            BladeInflow::Stations(values)
+            | BladeInflow::InTime { inflow: PlainInflow::Stations(values), .. } => S::cst(values[j]),
+            BladeInflow::Variable(values)
+            | BladeInflow::InTime { inflow: PlainInflow::Variable(values), .. } => values[j],
             BladeInflow::ThreeQuarter { inflow, .. } => inflow[j],
             BladeInflow::TwoLines { quarter, .. } => S::cst(quarter[j]),
             BladeInflow::Vacuum => S::zero(),

@@ -102,7 +102,7 @@ impl Blade {
         inflow: &BladeInflow<S>,
         work: &mut [S; MAX_MODES],
     ) -> Option<Sum<S>> {
-        let body = self.rigid.as_ref()?;
+        let body = self.rigid.as_ref().filter(|_| !environment.yawed_drag)?;
         let m = self.root.motion(self.n_modes, modal, control);
         let inflow = StraightInflow::of(self, inflow, carrier, m.t)?;
         let omega = carrier.omega + m.omega;

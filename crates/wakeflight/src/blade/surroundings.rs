@@ -1,6 +1,7 @@
 //! What surrounds a blade: section tables, air, rotor speed, inflow.
 
 use super::aerodynamics::Air;
+use super::sections_in_time::{PlainInflow, SectionsInTime};
 use super::thin_section::ThinSection;
 use crate::airfoil::span::StationAirfoils;
 
@@ -13,6 +14,8 @@ pub struct BladeEnvironment<'a> {
     pub air: Air,
     /// Rotor speed [rad/s].
     pub rotor_speed: f64,
+    /// Whether drag acts along the whole wind of a section, its part along the span included.
+    pub yawed_drag: bool,
 }
 
 /// Induced inflow of a blade, positive down (v_i / tip speed).
@@ -40,6 +43,27 @@ pub enum BladeInflow<'a, S> {
         /// Inflow at three quarters, less that of the section's own bound vortex in two dimensions.
         three_quarter: &'a [f64],
     },
+    /// Sections that remember.
+    InTime {
+        /// Inflow.
+        inflow: PlainInflow<'a, S>,
+        /// The sections.
+        sections: SectionsInTime<'a>,
+    },
     /// No air at all.
     Vacuum,
+}
+
+impl<'a, S> BladeInflow<'a, S> {
+    /// The same inflow with sections that remember; without air there is nothing to remember, thin sections have no law in time.
+    #[inline(always)]
+    pub fn remembering(self, sections: Option<SectionsInTime<'a>>) -> Self {
+        let Some(sections) = sections else { return self };
+        match self {
+            Self::Disk(states) => Self::InTime { inflow: PlainInflow::Disk(states), sections },
+            Self::Stations(values) => Self::InTime { inflow: PlainInflow::Stations(values), sections },
+            Self::Variable(values) => Self::InTime { inflow: PlainInflow::Variable(values), sections },
+            other => other,
+        }
+    }
 }

@@ -3,9 +3,12 @@
 //! Held: the far inflow, the motion of blade and hub. Solved: Gamma_i = Gamma_section_i(lambda_far_i + sum_j N_ij Gamma_j).
 
 use super::hub::Rotor;
-use crate::blade::aerodynamics::{Air, SectionWind};
+use crate::blade::aerodynamics::Air;
 use crate::blade::hub_motion::HubMotion;
 use crate::blade::kinematics::{ModalMotion, PitchMotion};
+use crate::blade::memory_rows::MemoryRows;
+use crate::blade::section_wind::SectionWind;
+use crate::blade::sections_in_time::BladePast;
 use crate::blade::surroundings::BladeInflow;
 use crate::blade::thin_section::ThinSection;
 use crate::numerics::scalar::{Dual, Real};
@@ -49,6 +52,22 @@ pub struct BladeInstant {
     pub control: PitchMotion<f64>,
 }
 
+/// A blade at one instant, with what is known of the states of its sections where they remember.
+#[derive(Clone, Copy, Debug)]
+pub struct BladeInTime<'a> {
+    /// Its motion.
+    pub instant: &'a BladeInstant,
+    /// What is known.
+    pub past: Option<BladePast<'a>>,
+}
+
+impl<'a> From<&'a BladeInstant> for BladeInTime<'a> {
+    /// Of sections that do not remember.
+    fn from(instant: &'a BladeInstant) -> Self {
+        Self { instant, past: None }
+    }
+}
+
 /// Largest difference between the circulation of a section and that of its element, over omega R^2.
 const CIRCULATION_TOLERANCE: f64 = 1e-8;
 
@@ -58,16 +77,19 @@ impl Rotor {
         &self,
         air: Air,
         hub: &HubMotion<f64>,
-        blade: &BladeInstant,
+        blade: BladeInTime,
         lambda: &[f64],
         circulation: &mut [f64],
         slope: &mut [f64],
     ) {
         match self.thin {
-            Some(law) => self.thin_circulation(law, air, hub, blade, lambda, |j, gamma| {
+            Some(law) => self.thin_circulation(law, air, hub, blade.instant, lambda, |j, gamma| {
                 (circulation[j], slope[j]) = (gamma.re, gamma.eps[0]);
             }),
-            None => self.circulation_of(air, &self.section_winds(hub, blade), lambda, circulation, slope),
+            None => {
+                let winds = self.section_winds(hub, blade.instant);
+                self.circulation_of(air, (&winds, blade.past), lambda, circulation, slope);
+            }
         }
     }
 
@@ -80,14 +102,19 @@ impl Rotor {
     fn circulation_of(
         &self,
         air: Air,
-        winds: &[SectionWind],
+        (winds, past): (&[SectionWind], Option<BladePast>),
         lambda: &[f64],
         circulation: &mut [f64],
         slope: &mut [f64],
     ) {
+        let sections = self.sections_in_time(past);
         for (j, wind) in winds.iter().enumerate() {
             // a station's circulation depends on its own inflow alone
-            let gamma = wind.circulation(self.airfoils.at(j), &air, Dual::<1>::variable(lambda[j], 0));
+            let (airfoil, lambda) = (self.airfoils.at(j), Dual::<1>::variable(lambda[j], 0));
+            let gamma = match &sections {
+                None => wind.circulation(airfoil, &air, lambda),
+                Some(sections) => wind.circulation_in_time((j, airfoil), &air, sections, lambda),
+            };
             (circulation[j], slope[j]) = (gamma.re, gamma.eps[0]);
         }
     }
@@ -199,7 +226,7 @@ impl Rotor {
         &self,
         air: Air,
         hub: &HubMotion<f64>,
-        blade: &BladeInstant,
+        blade: BladeInTime,
         lambda_far: &[f64],
         near_wake: &NearWake,
         start: &[f64],
@@ -215,7 +242,7 @@ impl Rotor {
                 lambda_far,
                 matrix,
                 |lambda, circulation, slope| {
-                    self.thin_circulation(law, air, hub, blade, lambda, |j, gamma| {
+                    self.thin_circulation(law, air, hub, blade.instant, lambda, |j, gamma| {
                         (circulation[j], slope[j]) = (gamma.re, gamma.eps[0]);
                     });
                 },
@@ -233,24 +260,27 @@ impl Rotor {
             return Ok(solution);
         }
         // the motion of the sections does not change while the circulation is sought
-        let winds = self.section_winds(hub, blade);
+        let winds = self.section_winds(hub, blade.instant);
         solve_circulation(
             lambda_far,
             &near_wake.bound_line,
-            |lambda, circulation, slope| self.circulation_of(air, &winds, lambda, circulation, slope),
+            |lambda, circulation, slope| {
+                self.circulation_of(air, (&winds, blade.past), lambda, circulation, slope);
+            },
             start,
             &floor,
             tolerance,
         )
     }
 
-    /// Circulation and near wake of several blade instants for held far inflow; `lambda_far` and `start` row by row.
+    /// Circulation and near wake of several blade instants for held far inflow; `lambda_far` and `start` row by row, as the
+    /// memory of sections in a periodic motion.
     pub fn circulations(
         &self,
         air: Air,
         options: &WakeOptions,
         hub: &HubMotion<f64>,
-        instants: &[BladeInstant],
+        (instants, memory): (&[BladeInstant], &MemoryRows),
         lambda_far: &[f64],
         start: &[f64],
     ) -> Result<Circulations, WakeError> {
@@ -261,8 +291,9 @@ impl Rotor {
             let (flap, lead) = self.equivalent_angles(&blade.modal);
             let near = self.near_wake(options, &wake_hub, &BladeState { psi: blade.psi, flap, lead })?;
             let row = i * n..(i + 1) * n;
+            let known = BladeInTime { instant: blade, past: memory.periodic(i) };
             let solution =
-                self.blade_circulation(air, hub, blade, &lambda_far[row.clone()], &near, &start[row])?;
+                self.blade_circulation(air, hub, known, &lambda_far[row.clone()], &near, &start[row])?;
             let solution = self.solved(solution, i, blade.psi)?;
             all.residual = all.residual.max(solution.residual);
             all.followed += usize::from(solution.found_by != Some(Route::Newton));

@@ -14,6 +14,7 @@ use crate::blade::hub_loads::BladeLoads;
 use crate::blade::hub_motion::HubMotion;
 use crate::blade::kinematics::{ModalMotion, PitchMotion, combine};
 use crate::blade::model::{Blade, Discretisation};
+use crate::blade::sections_in_time::{BladePast, SectionLaw, SectionsInTime};
 use crate::blade::surroundings::{BladeEnvironment, BladeInflow};
 use crate::blade::thin_section::ThinSection;
 use crate::numerics::frames::{Body, Hub, Rotation, Vec3, rot_hb};
@@ -33,6 +34,10 @@ pub struct Rotor {
     pub airfoils: StationAirfoils,
     /// Law of sections that meet the air at three quarters of the chord; none on a lifting line.
     pub thin: Option<ThinSection>,
+    /// Law of sections that remember; none where they answer the flow of the instant.
+    pub sections: Option<SectionLaw>,
+    /// Whether drag acts along the whole wind of a section, its part along the span included.
+    pub yawed_drag: bool,
     /// Damper of every blade.
     pub lag_damper: Option<LagDamper>,
     /// Sticks to pitch.
@@ -65,6 +70,8 @@ impl Rotor {
             blade,
             n_blades: data.n_blades,
             thin: None,
+            sections: None,
+            yawed_drag: false,
             lag_damper: data.lag_damper.clone(),
             rigging,
             higher: Vec::new(),
@@ -102,6 +109,11 @@ impl Rotor {
             RotorSpeed::Constant | RotorSpeed::Free(_) => psi / self.omega,
             RotorSpeed::Prescribed(history) => history.time(psi),
         }
+    }
+
+    /// Length [s] of a step of azimuth of which a revolution has `n`, at the nominal speed.
+    pub fn nominal_step(&self, n: usize) -> f64 {
+        std::f64::consts::TAU / (n as f64 * self.omega)
     }
 
     /// Speed and its rate at time `t` of a step that began at `begin` [s]; where it is a state, the nominal one.
@@ -169,7 +181,12 @@ impl Rotor {
 
     #[inline(always)]
     pub(super) fn environment(&self, air: Air) -> BladeEnvironment<'_> {
-        BladeEnvironment { airfoils: &self.airfoils, air, rotor_speed: self.omega }
+        BladeEnvironment {
+            airfoils: &self.airfoils,
+            air,
+            rotor_speed: self.omega,
+            yawed_drag: self.yawed_drag,
+        }
     }
 
     /// Loads of a blade with its damper, at azimuth `psi` for the stick position [m] and its rate [m/s].
@@ -212,6 +229,13 @@ impl Rotor {
             Some(law) => BladeInflow::TwoLines { law, quarter: row, three_quarter: row },
             None => BladeInflow::Stations(row),
         }
+    }
+
+    /// The sections of a blade of which `past` is known, where they remember.
+    #[inline(always)]
+    pub fn sections_in_time<'a>(&'a self, past: Option<BladePast<'a>>) -> Option<SectionsInTime<'a>> {
+        let law = self.sections.as_ref()?;
+        past.map(|past| SectionsInTime { law, past })
     }
 
     /// Air and inflow at every station of a blade.

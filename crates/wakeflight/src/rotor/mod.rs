@@ -6,6 +6,7 @@ pub mod exchange;
 pub mod four;
 pub mod hub;
 pub mod lag_damper;
+pub mod memory;
 pub mod passages;
 pub mod periodic;
 pub mod periodic_slopes;

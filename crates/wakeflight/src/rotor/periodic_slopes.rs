@@ -11,6 +11,7 @@ use crate::blade::aerodynamics::Air;
 use crate::blade::hub_loads::BladeLoads;
 use crate::blade::hub_motion::HubMotion;
 use crate::blade::kinematics::{ModalMotion, PitchMotion};
+use crate::blade::sections_in_time::BladePast;
 use crate::blade::surroundings::BladeInflow;
 use crate::numerics::frames::Vec3;
 use crate::numerics::wide::{DIRECTIONS, Directional, Task, differentiate};
@@ -30,14 +31,15 @@ pub enum AzimuthInflow<'a> {
     Held(&'a [f64]),
 }
 
-impl<'a> AzimuthInflow<'a> {
-    /// The same for the equations.
-    pub fn of(&self, rotor: &Rotor) -> BladeInflow<'a, f64> {
-        match *self {
-            Self::Disk(states) => BladeInflow::Disk(states),
-            Self::Held(row) => rotor.held_inflow(row),
-        }
-    }
+/// What a blade is given at one azimuth.
+#[derive(Clone, Copy, Debug)]
+pub struct AzimuthGiven<'a> {
+    /// Pitch.
+    pub pitch: PitchMotion<f64>,
+    /// Inflow.
+    pub inflow: AzimuthInflow<'a>,
+    /// What is known of the states of its sections, where they remember.
+    pub past: Option<BladePast<'a>>,
 }
 
 /// Derivatives of a revolution; harmonic rows and columns in the order of `Harmonics`, counted from its start.
@@ -67,8 +69,7 @@ struct AzimuthPass<'a> {
     hub: &'a HubMotion<f64>,
     psi: f64,
     modal: &'a ModalMotion<f64>,
-    pitch: PitchMotion<f64>,
-    inflow: AzimuthInflow<'a>,
+    given: AzimuthGiven<'a>,
     first: usize,
     table: &'a mut [[f64; MOST_LOCAL]; MOST_ROWS],
 }
@@ -88,12 +89,12 @@ impl Task for AzimuthPass<'_> {
         }
         let mut hub: HubMotion<S> = self.hub.constant();
         let mut pitch = PitchMotion {
-            theta: S::cst(self.pitch.theta),
-            theta_dot: S::cst(self.pitch.theta_dot),
-            theta_ddot: S::cst(self.pitch.theta_ddot),
+            theta: S::cst(self.given.pitch.theta),
+            theta_dot: S::cst(self.given.pitch.theta_dot),
+            theta_ddot: S::cst(self.given.pitch.theta_ddot),
         };
         let mut disk = [S::zero(); 3];
-        if let AzimuthInflow::Disk(states) = self.inflow {
+        if let AzimuthInflow::Disk(states) = self.given.inflow {
             for (s, &v) in disk.iter_mut().zip(&states) {
                 *s = S::cst(v);
             }
@@ -135,10 +136,11 @@ impl Task for AzimuthPass<'_> {
                 }
             }
         }
-        let inflow = match self.inflow {
+        let inflow = match self.given.inflow {
             AzimuthInflow::Disk(_) => BladeInflow::Disk(disk),
             AzimuthInflow::Held(row) => rotor.held_inflow(row),
         };
+        let inflow = inflow.remembering(rotor.sections_in_time(self.given.past));
         let loads = rotor.blade_loads(self.air, &hub, S::cst(self.psi), &modal, &pitch, &inflow);
         let span = self.first..self.first + lanes;
         for i in 0..m {
@@ -157,7 +159,7 @@ impl Rotor {
     pub fn revolution_slopes<'a>(
         &self,
         turn: &Revolution<f64>,
-        given: impl Fn(usize, f64) -> (PitchMotion<f64>, AzimuthInflow<'a>),
+        given: impl Fn(usize, f64) -> AzimuthGiven<'a>,
     ) -> RevolutionSlopes {
         let Revolution { air, hub, harmonics, x, n_azimuths } = *turn;
         let m = harmonics.n_modes;
@@ -185,7 +187,7 @@ impl Rotor {
         for l in 0..n_azimuths {
             let psi = turn.azimuth(l);
             let modal = harmonics.motion(x, psi, self.omega);
-            let (pitch, inflow) = given(l, psi);
+            let given = given(l, psi);
             let mut loads = BladeLoads::zero();
             for first in (0..n_local).step_by(DIRECTIONS) {
                 let table = &mut table;
@@ -195,8 +197,7 @@ impl Rotor {
                     hub,
                     psi,
                     modal: &modal,
-                    pitch,
-                    inflow,
+                    given,
                     first,
                     table,
                 });

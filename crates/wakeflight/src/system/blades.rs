@@ -1,8 +1,10 @@
 //! Blades of the first rotor as the exchange with the air takes them: at the instants of a flight, and of a periodic motion.
 
+use super::instant::Instant;
 use super::model::System;
 use crate::blade::hub_motion::HubMotion;
 use crate::blade::kinematics::{ModalMotion, PitchMotion};
+use crate::blade::memory_rows::MemoryRows;
 use crate::rotor::circulation::BladeInstant;
 use crate::rotor::exchange::{azimuth, row};
 use crate::rotor::speed::Turning;
@@ -60,6 +62,21 @@ impl System {
         let at =
             |(k, modal): (usize, &ModalMotion<f64>)| self.blade_at(psi(k), *modal, &Controls::held(stick));
         motions.iter().enumerate().map(at).collect()
+    }
+
+    /// Memory of the sections of the first rotor where the step that follows begins, in dynamic inflow; at the end of a step.
+    pub fn kept_memory(&self, at: &Instant<f64>) -> MemoryRows {
+        let rotor = self.main();
+        let spin = self.spin(0, at);
+        let hub = self.felt_hub(0, at.y, at.inputs, (self.hub_motion(0, at.y, at.y_dot), &spin.turning));
+        MemoryRows::of((0..rotor.n_blades).map(|b| {
+            let psi = self.azimuth(0, at.t, at.y, b);
+            let control = self.blade_pitch(0, at.inputs, (at.t, &spin), b);
+            let blade = BladeInstant { psi, modal: self.modal_motion(0, at.y, at.y_dot, b), control };
+            let inflow = self.blade_inflow(0, (at.t, at.y), at.inputs, b);
+            let past = self.sections_in_time(0, at.t, at.inputs, b).map(|sections| sections.past);
+            rotor.kept(self.air, &hub, &blade, &inflow, past)
+        }))
     }
 
     /// Pitch at each of `n` azimuths of a revolution with the controls held.

@@ -2,6 +2,7 @@
 //!
 //! What acts is plain numbers, or numbers with derivatives where F is differentiated by them.
 
+use crate::blade::memory_rows::MemoryRows;
 use crate::blade::surroundings::BladeInflow;
 use crate::numerics::scalar::{Dual, Real};
 use crate::rotor::hub::Rotor;
@@ -77,6 +78,15 @@ impl Default for EngineInput {
     }
 }
 
+/// What the sections of a rotor remember where a coupling step begins.
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+pub struct HeldMemory {
+    /// Memory, blade by blade.
+    pub memory: MemoryRows,
+    /// Start of the step [s], which inputs that begin at a corner of the controls come after.
+    pub begun: f64,
+}
+
 /// What acts on the system over one coupling step.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct Inputs<U = f64> {
@@ -89,6 +99,8 @@ pub struct Inputs<U = f64> {
     pub t_start: f64,
     /// Inflow of every rotor with blades, in the order of the list.
     pub inflow: Vec<HeldInflow<U>>,
+    /// Memory of the sections of every rotor, in the order of the list; those that remember cannot do without.
+    pub sections: Vec<HeldMemory>,
     /// Stabilator incidence [rad].
     pub stabilator_incidence: U,
     /// What the engines of a rotor whose speed is a state are given.

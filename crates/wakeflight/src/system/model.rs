@@ -3,12 +3,14 @@
 use super::carrier::{Carrier, Stand};
 use super::data::AircraftData;
 use super::layout::{Layout, RotorLayout, RotorStates, SpeedStates};
+use crate::airfoil::unsteady::Model;
 use crate::airframe::assembly::{Airframe, Parts};
 use crate::airframe::mass::{BladesAtHub, MassError};
 use crate::airframe::tail_rotor::TailRotor;
 use crate::blade::aerodynamics::Air;
 use crate::blade::error::BladeError;
 use crate::blade::model::Discretisation;
+use crate::blade::sections_in_time::SectionLaw;
 use crate::blade::thin_section::{SectionLift, ThinSection};
 use crate::inflow::pitt_peters::PittPeters;
 use crate::rotor::data::RotorData;
@@ -64,6 +66,10 @@ pub struct Setting {
     pub discretisation: Discretisation,
     /// Law of thin sections, whose circulation is that of the wind at three quarters of the chord; none on a lifting line.
     pub lift: Option<SectionLift>,
+    /// How sections on a lifting line answer in time.
+    pub unsteady: Model,
+    /// Whether drag acts along the whole wind of a section.
+    pub yawed_drag: bool,
 }
 
 impl System {
@@ -125,6 +131,9 @@ impl Setting {
         let tip_loss_factor = if self.free_wake { 1.0 } else { data.tip_loss_factor };
         let mut rotor = Rotor::new(data, rigging.clone(), tip_loss_factor, &self.discretisation)?;
         rotor.thin = self.lift.map(|lift| ThinSection { lift });
+        rotor.yawed_drag = self.yawed_drag;
+        rotor.sections =
+            if self.lift.is_none() { SectionLaw::of(self.unsteady, &rotor.airfoils) } else { None };
         Ok(rotor)
     }
 }

@@ -113,7 +113,7 @@ impl System {
             o.azimuth.push(psi.rem_euclid(std::f64::consts::TAU));
             let control = self.blade_pitch(r, at.inputs, (at.t, &spin), b);
             let modal = self.modal_motion(r, at.y, at.y_dot, b);
-            let inflow = self.blade_inflow(r, at.y, at.inputs, b);
+            let inflow = self.blade_inflow(r, (at.t, at.y), at.inputs, b);
             for (air, lambda) in rotor.blade_air(self.air, &hub, psi, &modal, &control, &inflow) {
                 o.inflow.push(lambda);
                 o.circulation.push(air.circulation);

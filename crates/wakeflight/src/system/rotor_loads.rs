@@ -6,6 +6,7 @@ use super::model::System;
 use crate::blade::hub_loads::BladeLoads;
 use crate::blade::hub_motion::HubMotion;
 use crate::blade::kinematics::{ModalMotion, PitchMotion};
+use crate::blade::sections_in_time::SectionsInTime;
 use crate::blade::surroundings::BladeInflow;
 use crate::inflow::pitt_peters::DiskCondition;
 use crate::numerics::frames::{Body, Hub, Vec3};
@@ -169,16 +170,29 @@ impl System {
         }
     }
 
-    /// Inflow that blade `b` of rotor `r` feels.
+    /// What is known at time `t` of the states of the sections of blade `b` of rotor `r`, where they remember.
+    #[inline(always)]
+    pub fn sections_in_time<'a, U>(
+        &'a self,
+        r: usize,
+        t: f64,
+        inputs: &'a Inputs<U>,
+        b: usize,
+    ) -> Option<SectionsInTime<'a>> {
+        let held = inputs.sections.get(r)?;
+        self.rotors[r].sections_in_time(held.memory.step(b, t - held.begun))
+    }
+
+    /// Inflow that blade `b` of rotor `r` feels at time `t`, with what its sections remember.
     #[inline(always)]
     pub fn blade_inflow<'a, S: Real, U: Acting<S>>(
-        &self,
+        &'a self,
         r: usize,
-        y: &[S],
+        (t, y): (f64, &[S]),
         inputs: &'a Inputs<U>,
         b: usize,
     ) -> BladeInflow<'a, S> {
-        match &inputs.inflow[r] {
+        let inflow = match &inputs.inflow[r] {
             HeldInflow::Dynamic => {
                 let i = self.layout.rotors[r].inflow().start;
                 BladeInflow::Disk([y[i], y[i + 1], y[i + 2]])
@@ -188,7 +202,8 @@ impl System {
                 U::held(&self.rotors[r], &inflow[b * width..(b + 1) * width])
             }
             HeldInflow::Vacuum => BladeInflow::Vacuum,
-        }
+        };
+        inflow.remembering(self.sections_in_time(r, t, inputs, b))
     }
 
     /// Loads of blade `b` of rotor `r`.
@@ -209,7 +224,7 @@ impl System {
             psi,
             &modal,
             &control,
-            &self.blade_inflow(r, at.y, at.inputs, b),
+            &self.blade_inflow(r, (at.t, at.y), at.inputs, b),
         )
     }
 
@@ -233,7 +248,7 @@ impl System {
                     self.blade_pitch(r, at.inputs, (at.t, spin), blade(k)),
                 )
             });
-            let inflow = std::array::from_fn(|k| self.blade_inflow(r, at.y, at.inputs, blade(k)));
+            let inflow = std::array::from_fn(|k| self.blade_inflow(r, (at.t, at.y), at.inputs, blade(k)));
             let loads = self.rotors[r].four_blade_loads(self.air, hub, &poses, &inflow);
             for (b, blade) in (first..n).zip(&loads) {
                 each(b, blade);

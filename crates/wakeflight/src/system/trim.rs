@@ -10,6 +10,7 @@ use super::residual::Settings;
 use super::rotor_loads::{RotorLoads, RotorShare};
 use crate::blade::aerodynamics::Air;
 use crate::blade::kinematics::PitchMotion;
+use crate::blade::memory_rows::MemoryRows;
 use crate::inflow::pitt_peters::PittPeters;
 use crate::numerics::frames::{Vec3, quaternion, rot_ib};
 use crate::numerics::scalar::Real;
@@ -157,6 +158,17 @@ impl Trim<'_, System> {
         (y, y_dot)
     }
 
+    /// Memory of the sections of every blade at time `t` of the trimmed revolution.
+    pub fn memory_at(&self, x: &[f64], t: f64) -> MemoryRows {
+        let (system, memory) = (self.host(), self.memory(x));
+        if memory.is_empty() {
+            return memory;
+        }
+        let rotor = system.main();
+        let psi = |b: usize| rotor.azimuth(rotor.turned(t), b);
+        MemoryRows::of((0..rotor.n_blades).map(|b| self.kept_at(x, &memory, psi(b))))
+    }
+
     /// Inputs that hold the trim: controls, stabilator, and the inflow given.
     pub fn inputs(&self, x: &[f64], inflow: HeldInflow) -> Inputs {
         let head = self.layout.head(x);
@@ -166,6 +178,7 @@ impl Trim<'_, System> {
             stick_rate: [0.0; 4],
             t_start: 0.0,
             inflow: vec![inflow],
+            sections: Vec::new(),
             stabilator_incidence: self.host().trim_stabilator(&head, &y),
             engine: EngineInput::default(),
             disturbance: None,

@@ -37,6 +37,14 @@ pub enum ProblemError {
     /// Passages without an inflow.
     #[error("inflow is needed: the problem has none of its own")]
     NoInflow,
+    /// Memory of sections for another number of passages, or missing.
+    #[error("sections: memory of {rows} blade instants, {needed} needed")]
+    Memory {
+        /// Rows given.
+        rows: usize,
+        /// Rows needed.
+        needed: usize,
+    },
     /// No azimuth to average over.
     #[error("no azimuths to average over")]
     NoAzimuths,

@@ -10,14 +10,14 @@ use super::residual::Trim;
 use crate::blade::hub_loads::BladeLoads;
 use crate::numerics::frames::Vec3;
 use crate::numerics::scalar::{Dual, Real};
-use crate::rotor::periodic_slopes::{AzimuthInflow, N_GIVEN, N_LOADS, RevolutionSlopes};
+use crate::rotor::periodic_slopes::{AzimuthGiven, AzimuthInflow, N_GIVEN, N_LOADS, RevolutionSlopes};
 
 /// Directions carried at once through the equations of the head, which has no more unknowns.
 const LANES: usize = 16;
 type D = Dual<LANES>;
 
 impl<H: Host> Trim<'_, H> {
-    /// Exact Jacobian of the residual at `x`, row-major (n, n).
+    /// Exact Jacobian of the residual at `x`, row-major (n, n); of sections that remember with their lags held.
     pub fn jacobian(&self, x: &[f64], out: &mut [f64]) {
         let (n, first) = (self.layout.len(), self.layout.harmonics().start);
         let width = n - first;
@@ -25,12 +25,13 @@ impl<H: Host> Trim<'_, H> {
         let carried = self.host.carried(&self.layout.head(x));
         let pitch: [f64; 4] = self.host.pitch(self.layout.head(x).controls);
         let disk = self.layout.head(x).inflow;
+        let memory = self.memory(x);
         let slopes = self.host.rotor().revolution_slopes(&self.revolution(&carried, x), |l, psi| {
             let inflow = match &self.problem.inflow {
                 Inflow::Dynamic => AzimuthInflow::Disk(disk),
                 Inflow::Map { inflow, .. } => AzimuthInflow::Held(self.row(inflow, l)),
             };
-            (self.host.blade_pitch(&pitch, psi), inflow)
+            AzimuthGiven { pitch: self.host.blade_pitch(&pitch, psi), inflow, past: memory.periodic(l) }
         });
         out.fill(0.0);
         let by_loads = self.head_slopes(x, &slopes, out);

@@ -7,9 +7,11 @@ use super::layout::Layout;
 use super::problem::{Inflow, Problem};
 use crate::blade::hub_loads::BladeLoads;
 use crate::blade::kinematics::ModalMotion;
+use crate::blade::memory_rows::MemoryRows;
 use crate::blade::surroundings::BladeInflow;
 use crate::inflow::pitt_peters::DiskCondition;
 use crate::numerics::scalar::Real;
+use crate::rotor::circulation::BladeInstant;
 use crate::rotor::periodic::{BladeGiven, Revolution};
 use std::f64::consts::{PI, TAU};
 
@@ -73,7 +75,8 @@ impl<'a, H: Host> Trim<'a, H> {
         let head = self.layout.head(x);
         let carried = self.host.carried(&head);
         let pitch = self.host.pitch(head.controls);
-        let given = |l: usize, psi: f64| self.given(&head, &pitch, l, psi);
+        let memory = self.memory(&x.iter().map(|v| v.re()).collect::<Vec<_>>());
+        let given = |l: usize, psi: f64| self.given(&head, &pitch, &memory, (l, psi));
         let mean = self.host.rotor().revolution(&self.revolution(&carried, x), given, f);
         self.head_rows(&head, &carried, x, &mean, f);
     }
@@ -83,7 +86,8 @@ impl<'a, H: Host> Trim<'a, H> {
         let head = self.layout.head(x);
         let carried = self.host.carried(&head);
         let pitch = self.host.pitch(head.controls);
-        let given = |l: usize, psi: f64| self.given(&head, &pitch, l, psi);
+        let memory = self.memory(x);
+        let given = |l: usize, psi: f64| self.given(&head, &pitch, &memory, (l, psi));
         let mean = self.host.rotor().revolution_of_four(&self.revolution(&carried, x), given, f);
         self.head_rows(&head, &carried, x, &mean, f);
     }
@@ -98,12 +102,41 @@ impl<'a, H: Host> Trim<'a, H> {
         }
     }
 
-    fn given<S: Real>(&self, head: &Head<S>, pitch: &[S; 4], l: usize, psi: f64) -> BladeGiven<'a, S> {
-        let inflow = match &self.problem.inflow {
+    fn given<'s, S: Real>(
+        &'s self,
+        head: &Head<S>,
+        pitch: &[S; 4],
+        memory: &'s MemoryRows,
+        (l, psi): (usize, f64),
+    ) -> BladeGiven<'s, S> {
+        let sections = self.host.rotor().sections_in_time(memory.periodic(l));
+        (self.host.blade_pitch(pitch, psi), self.inflow(head, l).remembering(sections))
+    }
+
+    /// Inflow at azimuth `l`.
+    pub(super) fn inflow<S: Real>(&self, head: &Head<S>, l: usize) -> BladeInflow<'a, S> {
+        match &self.problem.inflow {
             Inflow::Dynamic => BladeInflow::Disk(head.inflow),
             Inflow::Map { inflow, .. } => self.host.rotor().held_inflow(self.row(inflow, l)),
-        };
-        (self.host.blade_pitch(pitch, psi), inflow)
+        }
+    }
+
+    /// Memory of the sections of a blade at every azimuth of the motion `x`, which repeats; empty where they do not remember.
+    pub fn memory(&self, x: &[f64]) -> MemoryRows {
+        let rotor = self.host.rotor();
+        if rotor.sections.is_none() {
+            return MemoryRows::default();
+        }
+        let (head, n) = (self.layout.head(x), self.problem.n_azimuths);
+        let (pitch, hub) = (self.host.pitch(head.controls), self.host.carried(&head).hub);
+        let blades: Vec<BladeInstant> = (0..n)
+            .map(|l| {
+                let psi = TAU * l as f64 / n as f64;
+                let control = self.host.blade_pitch(&pitch, psi);
+                BladeInstant { psi, modal: self.motion(x, psi), control }
+            })
+            .collect();
+        rotor.periodic_memory(self.host.air(), &hub, &blades, |l| self.inflow(&head, l))
     }
 
     /// Held inflow at azimuth `l`.

@@ -1,7 +1,30 @@
 //! What can be chosen of a free wake: schemes, vortex models, ways to sum.
 
-use super::options::describe::choices;
+use super::options::describe::{Kind, Plain, Value, Word, choices};
+use crate::airfoil::unsteady::Model as Unsteady;
 use crate::vortex::core;
+
+impl Value for Unsteady {
+    const KIND: Kind = Kind::Word;
+    const WORDS: &'static [Word] = &[
+        Word {
+            word: Unsteady::QuasiSteady.name(),
+            meaning: "The table at the angle of attack of the instant, with the damping by the pitch rate.",
+        },
+        Word {
+            word: Unsteady::Attached.name(),
+            meaning: "Attached compressible flow: shed wake and impulsive loads, on the table.",
+        },
+        Word { word: Unsteady::Oye.name(), meaning: "Stall with one state: the separation point lags." },
+        Word {
+            word: Unsteady::Hgm.name(),
+            meaning: "Stall with four states: shed wake, pressure and separation point; no stall vortex.",
+        },
+    ];
+    fn plain(self) -> Plain {
+        Plain::Word(self.name())
+    }
+}
 
 choices! {
     /// Corrector of the time-marching wake.

@@ -9,19 +9,23 @@ pub mod data_files;
 use beam_support::uh60a;
 use data_files::{Csv, INCH};
 use wakeflight::airfoil::span::SpanSections;
+use wakeflight::airfoil::unsteady::Model;
 use wakeflight::airfoil::{Airfoil, AirfoilTables};
 use wakeflight::airframe::mass::MassProperties;
 use wakeflight::blade::MAX_MODES;
 use wakeflight::blade::aerodynamics::Air;
 use wakeflight::blade::hub_motion::HubMotion;
 use wakeflight::blade::kinematics::{ModalMotion, PitchMotion};
+use wakeflight::blade::memory_rows::MemoryRows;
 use wakeflight::blade::model::{Blade, Discretisation};
 use wakeflight::blade::section::BladeProperties;
+use wakeflight::blade::sections_in_time::SectionLaw;
 use wakeflight::blade::stations::StructuralPoint;
 use wakeflight::blade::strain::add_strain_gradient;
 use wakeflight::numerics::frames::Vec3;
 use wakeflight::numerics::scalar::{Dual, Real};
 use wakeflight::numerics::tables::Grid;
+use wakeflight::rotor::circulation::BladeInstant;
 use wakeflight::rotor::drive::{Drive, Governor};
 use wakeflight::rotor::lag_damper::LagDamper;
 use wakeflight::rotor::sense::Sense;
@@ -29,7 +33,7 @@ use wakeflight::rotor::speed::{RotorSpeed, SpeedHistory};
 use wakeflight::rotor::swashplate::Rigging;
 use wakeflight::system::carrier::Stand;
 use wakeflight::system::data::{AircraftData, RiggedRotor, RotorData};
-use wakeflight::system::instant::{EngineInput, HeldInflow, Inputs, Instant};
+use wakeflight::system::instant::{EngineInput, HeldInflow, HeldMemory, Inputs, Instant};
 use wakeflight::system::model::{Setting, System};
 
 pub const OMEGA: f64 = 27.0;
@@ -211,7 +215,15 @@ pub fn aircraft_data(blade: BladeProperties, airfoil: Airfoil) -> AircraftData {
 }
 
 pub fn setting(free_wake: bool, gravity: f64) -> Setting {
-    Setting { air: AIR, gravity, free_wake, discretisation: discretisation(5, 8), lift: None }
+    Setting {
+        air: AIR,
+        gravity,
+        free_wake,
+        discretisation: discretisation(5, 8),
+        lift: None,
+        unsteady: Model::QuasiSteady,
+        yawed_drag: false,
+    }
 }
 
 pub fn build(data: &AircraftData, free_wake: bool, gravity: f64) -> System {
@@ -272,6 +284,7 @@ pub fn inputs(stick: [f64; 4], inflow: HeldInflow) -> Inputs {
         stick_rate: [0.0; 4],
         t_start: 0.0,
         inflow: vec![inflow],
+        sections: Vec::new(),
         stabilator_incidence: 0.1,
         engine: EngineInput::default(),
         disturbance: None,
@@ -280,6 +293,35 @@ pub fn inputs(stick: [f64; 4], inflow: HeldInflow) -> Inputs {
 
 pub fn at<'a, S>(t: f64, y: &'a [S], y_dot: &'a [S], inputs: &'a Inputs) -> Instant<'a, S> {
     Instant { t, y, y_dot, inputs }
+}
+
+/// The system with sections that answer in time by `model`.
+pub fn in_time(mut system: System, model: Model) -> System {
+    for rotor in &mut system.rotors {
+        rotor.sections = SectionLaw::of(model, &rotor.airfoils);
+    }
+    system
+}
+
+/// Inputs of a step that began at `begun` [s], the sections then at rest in the flow of a random state.
+pub fn remembering(system: &System, inputs: &Inputs, begun: f64, random: &mut Random) -> Inputs {
+    let (y, y_dot) = random_state(system, random);
+    let held = system.each_rotor().map(|(r, rotor, _)| {
+        let spin = system.spin(r, &Instant { t: begun, y: &y[..], y_dot: &y_dot[..], inputs });
+        let hub = system.felt_hub(r, &y, inputs, (system.hub_motion(r, &y, &y_dot), &spin.turning));
+        let rows: Vec<MemoryRows> = (0..rotor.n_blades)
+            .map(|b| {
+                let psi = system.azimuth(r, begun, &y, b);
+                let control = system.blade_pitch(r, inputs, (begun, &spin), b);
+                let blade = BladeInstant { psi, modal: system.modal_motion(r, &y, &y_dot, b), control };
+                let inflow = |_| system.blade_inflow(r, (begun, &y[..]), inputs, b);
+                // a turn of one azimuth stays where it is
+                rotor.periodic_memory(system.air, &hub, &[blade], inflow)
+            })
+            .collect();
+        HeldMemory { memory: MemoryRows::joined(rows.iter()), begun }
+    });
+    Inputs { sections: held.collect(), ..inputs.clone() }
 }
 
 /// A state of flight: moderate speeds and rates, blades deflected and moving.

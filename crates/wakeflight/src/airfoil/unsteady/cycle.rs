@@ -149,6 +149,7 @@ impl Oscillation {
             alpha: angle + turned * (0.75 - axis),
             alpha_quarter: angle + turned * (0.25 - axis),
             pitch_rate,
+            turn_rate: pitch_rate,
             speed: self.speed(),
             speed_of_sound: SPEED_OF_SOUND,
         }

@@ -69,7 +69,7 @@ impl Law for Hgm {
         let arm = |point: S| section.separation.arm(alpha_effective, point, mach);
         let moved = circulatory * arm(point) - cl * arm(table.point);
         // half of it is the damping of the table's quasi-steady flow, half that of the air set in motion
-        let damping = flow.reduced_rate(section.chord) * (share + 1.0) * DAMPING;
+        let damping = (flow.reduced_rate(section.chord) + flow.reduced_turn(section.chord) * share) * DAMPING;
         Coefficients {
             cl: circulatory + added_mass_lift(section, flow),
             circulatory,
@@ -83,5 +83,5 @@ impl Law for Hgm {
 
 /// Lift of the air set in motion by the pitch rate, pi T_u omega.
 fn added_mass_lift<S: Real>(section: &Section, flow: &Flow<S>) -> S {
-    flow.reduced_rate(section.chord) * flow.engaged() * (0.5 * PI)
+    flow.reduced_turn(section.chord) * flow.engaged() * (0.5 * PI)
 }

@@ -76,7 +76,18 @@ pub fn advanced<L: Law, S: Real>(
     dt: f64,
     states: &States<S>,
 ) -> States<S> {
-    let old = law.drives(section, before, states);
+    followed(law, section, states, &law.drives(section, before, states), after, dt)
+}
+
+/// States `dt` [s] after they were `states` under the drives `old`, in the flow `after`.
+pub fn followed<L: Law, S: Real>(
+    law: &L,
+    section: &Section,
+    states: &States<S>,
+    old: &[Drive<S>; MAX_STATES],
+    after: &Flow<S>,
+    dt: f64,
+) -> States<S> {
     let mut new = *states;
     for stage in 0..stages::<L>() {
         let drives = law.drives(section, after, &new);
@@ -89,6 +100,46 @@ pub fn advanced<L: Law, S: Real>(
         }
     }
     new
+}
+
+/// States that lag behind what they follow by `lags`.
+pub fn behind<L: Law, S: Real>(law: &L, section: &Section, lags: &States<f64>, flow: &Flow<S>) -> States<S> {
+    let mut states = [S::zero(); MAX_STATES];
+    for stage in 0..stages::<L>() {
+        let drives = law.drives(section, flow, &states);
+        for k in of_stage::<L>(stage) {
+            states[k] = drives[k].input - S::cst(lags[k]);
+        }
+    }
+    states
+}
+
+/// States at instants `dt` [s] apart of a flow that repeats: the steps of [`followed`], closed to a turn.
+pub fn periodic<L: Law>(law: &L, section: &Section, flows: &[Flow<f64>], dt: f64) -> Vec<States<f64>> {
+    let n = flows.len();
+    let mut states = vec![[0.0; MAX_STATES]; n];
+    let mut drives = Vec::with_capacity(n);
+    for stage in 0..stages::<L>() {
+        drives.clear();
+        drives.extend(flows.iter().zip(&states).map(|(flow, x)| law.drives(section, flow, x)));
+        for k in of_stage::<L>(stage) {
+            let step = |l: usize, lag: f64| {
+                let (old, new) = (&drives[l][k], &drives[(l + 1) % n][k]);
+                let (decay, ramp) = decay_and_ramp((old.rate + new.rate) * (0.5 * dt));
+                lag * decay + (new.input - old.input) * ramp
+            };
+            // a turn is linear in the lag it begins with: what it adds, over the share of it that is forgotten
+            let turned = (0..n).map(|l| drives[l][k].rate * dt).sum::<f64>();
+            let added = (0..n).fold(0.0, |lag, l| step(l, lag));
+            let forgotten = -(-turned).exp_m1();
+            let mut lag = if forgotten > 0.0 { added / forgotten } else { 0.0 };
+            for l in 0..n {
+                states[l][k] = drives[l][k].input - lag;
+                lag = step(l, lag);
+            }
+        }
+    }
+    states
 }
 
 fn stages<L: Law>() -> usize {

@@ -10,12 +10,14 @@ pub mod hgm;
 pub mod impulsive;
 pub mod indicial;
 pub mod lag;
+pub mod memory;
 pub mod model;
 pub mod oye;
 pub mod separation;
 
 pub use cycle::{Cycle, CycleError, Motion, Oscillation};
 pub use lag::{MAX_STATES, States};
+pub use memory::{Memory, Past};
 pub use model::Model;
 pub use separation::Separation;
 
@@ -43,6 +45,9 @@ pub struct Flow<S> {
     pub alpha_quarter: S,
     /// Nose-up angular velocity, absolute [rad/s].
     pub pitch_rate: S,
+    /// The same relative to axes that go round with the blade [rad/s]: of what turns with the rotor the centripetal acceleration
+    /// takes off what its rate adds to that of the air.
+    pub turn_rate: S,
     /// Speed normal to the span [m/s], above 0.
     pub speed: S,
     /// Speed of sound [m/s].
@@ -63,6 +68,11 @@ impl<S: Real> Flow<S> {
     /// Pitch rate over the speed, c omega/V.
     fn reduced_rate(&self, chord: f64) -> S {
         self.pitch_rate * chord / self.speed
+    }
+
+    /// Rate of pitch in the blade's axes over the speed, c omega/V.
+    fn reduced_turn(&self, chord: f64) -> S {
+        self.turn_rate * chord / self.speed
     }
 
     /// Share of the unsteady model: all up to 45 deg, none beyond 60 deg and in reversed flow, whose edges are exchanged.

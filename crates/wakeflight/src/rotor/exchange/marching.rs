@@ -4,8 +4,9 @@
 //! one call, with the near wakes of the blades found once.
 
 use super::{Held, Lattice, Place, SteadyWake, over_step, row, steps_of};
+use crate::blade::memory_rows::MemoryRows;
 use crate::inflow::disk::{DiskMean, LiftingDisk};
-use crate::rotor::circulation::{BladeInstant, NearWake};
+use crate::rotor::circulation::{BladeInTime, BladeInstant, NearWake};
 use crate::rotor::hub::Rotor;
 use crate::vortex::threads::share;
 use crate::wake::miss_distance::miss_distance_in_cores;
@@ -31,13 +32,13 @@ impl Place<'_> {
     fn solved(
         &self,
         b: usize,
-        blade: &BladeInstant,
+        blade: BladeInTime,
         far: &[f64],
         near: &NearWake,
         start: &[f64],
     ) -> Result<CirculationSolution, WakeError> {
         let solution = self.rotor.blade_circulation(self.air, self.hub, blade, far, near, start)?;
-        self.rotor.solved(solution, b, blade.psi)
+        self.rotor.solved(solution, b, blade.instant.psi)
     }
 }
 
@@ -54,6 +55,8 @@ pub struct MarchingExchange {
     pub circulation: Vec<f64>,
     /// Total inflow held over the next step (n_blades, n_stations), with thin sections at both lines of the chord.
     pub inflow: Vec<f64>,
+    /// Memory of sections that remember where the step begins, blade by blade.
+    pub memory: MemoryRows,
     /// Circulations that were not solved; the exchange that met one failed.
     pub unsolved: usize,
     /// Circulations so far that Newton did not find from the ones before.
@@ -70,6 +73,9 @@ pub struct MarchingExchange {
     /// The map that is held, where one is, and the steps that it is held for.
     held_map: Vec<f64>,
     hold: Option<usize>,
+    /// Time since the step began [s].
+    #[serde(skip)]
+    elapsed: f64,
     #[serde(skip)]
     blades: Vec<BladeInstant>,
     #[serde(skip)]
@@ -95,6 +101,7 @@ impl MarchingExchange {
             before: None,
             circulation: rows(&start.circulation, n_stations),
             inflow: rows(&start.inflow, width),
+            memory: start.memory.rows((0..rotor.n_blades).map(|b| row(0, b, rotor.n_blades, n))),
             unsolved: 0,
             followed: 0,
             report: None,
@@ -104,6 +111,7 @@ impl MarchingExchange {
             passages: start.inflow.clone(),
             passed_circulation: start.circulation.clone(),
             held_map: start.inflow.clone(),
+            elapsed: 0.0,
             blades: Vec::new(),
             states: Vec::new(),
             near_wakes: Vec::new(),
@@ -134,9 +142,10 @@ impl MarchingExchange {
         Held { inflow: Some(inflow), mean: self.area.of(map, width) }
     }
 
-    /// The blades have reached the next step: circulation, wake, far inflow, circulation.
-    pub fn advance(&mut self, at: &Place, blades: &[BladeInstant]) -> Result<(), WakeError> {
+    /// The blades have reached the next step, `elapsed` [s] after the last: circulation, wake, far inflow, circulation.
+    pub fn advance(&mut self, at: &Place, blades: &[BladeInstant], elapsed: f64) -> Result<(), WakeError> {
         self.step += 1;
+        self.elapsed = elapsed;
         let hub = at.wake_hub();
         if self.wake.options().inboard_wake == InboardWake::Sheet {
             self.wake.set_mean_inflow(self.disk.carrying_inflow(&self.passed_circulation, hub.velocity))?;
@@ -151,9 +160,11 @@ impl MarchingExchange {
             self.find_far(pass + 1 == self.wake.own().recorrect);
             followed += self.solve(at, false)?;
         }
+        let memory = self.kept(at);
         if self.wake.own().extrapolate {
             self.hold_extrapolated(at)?;
         }
+        self.memory = memory;
         self.report = Some(ExchangeReport {
             max_displacement: step.max_displacement,
             odd_even: step.odd_even,
@@ -176,7 +187,7 @@ impl MarchingExchange {
             let rows: Vec<usize> = (0..n_blades).map(|b| row(self.step + 1, b, n_blades, n)).collect();
             blades.clear();
             blades.extend(rows.iter().map(|&k| periodic[k]));
-            self.advance(at, &blades)?;
+            self.advance(at, &blades, at.rotor.nominal_step(n))?;
             add_rows(&mut inflow, &rows, &self.inflow);
             add_rows(&mut circulation, &rows, &self.circulation);
         }
@@ -256,10 +267,12 @@ impl MarchingExchange {
         self.far_ahead(if ahead { 1.0 } else { 0.0 });
         let n = self.wake.options().n_stations;
         let mut outcomes: Vec<Result<bool, WakeError>> = vec![Ok(true); self.blades.len()];
+        let (memory, elapsed) = (&self.memory, self.elapsed);
         let given = self.blades.iter().zip(&self.near_wakes).zip(self.far_held.chunks(n)).enumerate();
         let width = at.rotor.inflow_width();
         let kept = self.circulation.chunks_mut(n).zip(self.inflow.chunks_mut(width)).zip(&mut outcomes);
-        share(given.zip(kept), |((b, ((blade, near), far)), ((circulation, inflow), outcome))| {
+        share(given.zip(kept), |((b, ((instant, near), far)), ((circulation, inflow), outcome))| {
+            let blade = BladeInTime { instant, past: memory.step(b, elapsed) };
             *outcome = at.solved(b, blade, far, near, circulation).map(|solution| {
                 circulation.copy_from_slice(&solution.gamma);
                 inflow.copy_from_slice(&solution.inflow);
@@ -270,12 +283,22 @@ impl MarchingExchange {
         outcomes.into_iter().try_fold(0, |followed, outcome| Ok(followed + usize::from(!outcome?)))
     }
 
+    /// Memory of the sections in the inflow found for the present, in which the next step begins.
+    fn kept(&self, at: &Place) -> MemoryRows {
+        let rows = self.blades.iter().zip(self.inflow.chunks(at.rotor.inflow_width())).enumerate();
+        MemoryRows::of(rows.map(|(b, (blade, row))| {
+            let past = self.memory.step(b, self.elapsed);
+            at.rotor.kept(at.air, at.hub, blade, &at.rotor.held_inflow(row), past)
+        }))
+    }
+
     /// Total inflow half a step ahead; circulation of the wake stays that of the present.
     fn hold_extrapolated(&mut self, at: &Place) -> Result<(), WakeError> {
         self.far_ahead(0.5);
         let (n, width) = (self.wake.options().n_stations, at.rotor.inflow_width());
-        for (b, (blade, near)) in self.blades.iter().zip(&self.near_wakes).enumerate() {
+        for (b, (instant, near)) in self.blades.iter().zip(&self.near_wakes).enumerate() {
             let span = b * n..(b + 1) * n;
+            let blade = BladeInTime { instant, past: self.memory.step(b, self.elapsed) };
             let solution =
                 at.solved(b, blade, &self.far_held[span.clone()], near, &self.circulation[span])?;
             self.inflow[b * width..(b + 1) * width].copy_from_slice(&solution.inflow);

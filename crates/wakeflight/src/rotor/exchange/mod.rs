@@ -18,6 +18,7 @@ use super::speed::RotorSpeed;
 use crate::blade::aerodynamics::Air;
 use crate::blade::hub_motion::HubMotion;
 use crate::blade::kinematics::PitchMotion;
+use crate::blade::memory_rows::MemoryRows;
 use crate::inflow::disk::{DiskMean, LiftingDisk};
 use crate::wake::{HubMotion as WakeHub, WakeError};
 use serde::{Deserialize, Serialize};
@@ -50,6 +51,8 @@ pub struct Reached<'a> {
     pub blades: &'a [BladeInstant],
     /// Pitch of a blade at every azimuth (n_azimuths,) with the sticks where they are; needed where a wake is renewed.
     pub steady_pitch: &'a [PitchMotion<f64>],
+    /// Time since the step began [s].
+    pub elapsed: f64,
 }
 
 /// Inflow over the step that begins.
@@ -77,8 +80,8 @@ pub struct Lattice {
 /// One of the inflow models of a flight, with all that it keeps between exchanges.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub enum Exchange {
-    /// Dynamic inflow: in the state, nothing to exchange.
-    Dynamic,
+    /// Dynamic inflow: in the state, nothing to exchange; memory of sections that remember where the step begins, blade by blade.
+    Dynamic(MemoryRows),
     /// Relaxation wake: inflow by azimuth, renewed as often as asked.
     Relaxation(Box<RelaxationExchange>),
     /// Time-marching wake: one step with every exchange.
@@ -89,7 +92,7 @@ impl Exchange {
     /// Inflow over the step that begins after `step` steps of azimuth.
     pub fn held(&self, step: usize) -> Held {
         match self {
-            Self::Dynamic => Held { inflow: None, mean: 0.0 },
+            Self::Dynamic(_) => Held { inflow: None, mean: 0.0 },
             Self::Relaxation(wake) => wake.held(step),
             Self::Marching(wake) => wake.held(step),
         }
@@ -102,7 +105,7 @@ impl Exchange {
 
     /// The flight has reached `step`: the air answers. Wakes go by equal steps of time: they refuse a rotor whose speed changes.
     pub fn advance(&mut self, step: usize, reached: &Reached) -> Result<(), WakeError> {
-        if !matches!(self, Self::Dynamic) && reached.place.rotor.speed != RotorSpeed::Constant {
+        if !matches!(self, Self::Dynamic(_)) && reached.place.rotor.speed != RotorSpeed::Constant {
             return Err(WakeError::InvalidOption {
                 field: "rotor_speed",
                 value: "a history".into(),
@@ -110,9 +113,18 @@ impl Exchange {
             });
         }
         match self {
-            Self::Dynamic => Ok(()),
+            Self::Dynamic(_) => Ok(()),
             Self::Relaxation(wake) => wake.advance(step, reached),
-            Self::Marching(wake) => wake.advance(&reached.place, reached.blades),
+            Self::Marching(wake) => wake.advance(&reached.place, reached.blades, reached.elapsed),
+        }
+    }
+
+    /// Memory of sections that remember, where the step begins; blade by blade.
+    pub fn memory(&self) -> &MemoryRows {
+        match self {
+            Self::Dynamic(memory) => memory,
+            Self::Relaxation(wake) => &wake.memory,
+            Self::Marching(wake) => &wake.memory,
         }
     }
 
@@ -120,7 +132,7 @@ impl Exchange {
     pub fn marching(&self) -> Option<&MarchingExchange> {
         match self {
             Self::Marching(wake) => Some(wake),
-            Self::Dynamic | Self::Relaxation(_) => None,
+            Self::Dynamic(_) | Self::Relaxation(_) => None,
         }
     }
 
@@ -128,7 +140,7 @@ impl Exchange {
     pub fn marching_mut(&mut self) -> Option<&mut MarchingExchange> {
         match self {
             Self::Marching(wake) => Some(wake),
-            Self::Dynamic | Self::Relaxation(_) => None,
+            Self::Dynamic(_) | Self::Relaxation(_) => None,
         }
     }
 
@@ -144,7 +156,7 @@ impl Exchange {
     /// Counted work by name; none without a wake.
     pub fn counters(&self) -> Vec<(&'static str, u64)> {
         match self {
-            Self::Dynamic => Vec::new(),
+            Self::Dynamic(_) => Vec::new(),
             Self::Relaxation(wake) => vec![
                 ("segment_evaluations", wake.steady.segment_evaluations()),
                 ("unconverged_revolutions", wake.unconverged),
@@ -162,7 +174,7 @@ impl Exchange {
     /// Every free trailer with the blades where they are after `step` steps; none without a wake.
     pub fn lattice(&self, step: usize) -> Option<Lattice> {
         match self {
-            Self::Dynamic => None,
+            Self::Dynamic(_) => None,
             Self::Relaxation(wake) => wake.lattice(step),
             Self::Marching(wake) => Some(wake.lattice()),
         }

@@ -3,6 +3,7 @@
 use super::{Held, Lattice, Reached, SteadyWake, azimuth, over_step, row, steps_of};
 use crate::blade::MAX_MODES;
 use crate::blade::kinematics::ModalMotion;
+use crate::blade::memory_rows::MemoryRows;
 use crate::inflow::disk::DiskMean;
 use crate::rotor::circulation::BladeInstant;
 use crate::rotor::hub::Rotor;
@@ -33,6 +34,8 @@ pub struct RelaxationExchange {
     every: usize,
     /// Iterations of a renewal at most.
     most: usize,
+    /// Memory of sections that remember where the step begins, blade by blade.
+    pub memory: MemoryRows,
     /// Latest passage of a blade at every azimuth.
     passages: Vec<Passage>,
     /// Renewals so far.
@@ -51,7 +54,9 @@ impl RelaxationExchange {
         motion: &[ModalMotion<f64>],
     ) -> Self {
         (steady.sweeps, steady.followed) = (0, 0);
+        let (n_blades, n) = (rotor.n_blades, motion.len());
         Self {
+            memory: steady.memory.rows((0..n_blades).map(|b| row(0, b, n_blades, n))),
             steady,
             n_blades: rotor.n_blades,
             area: rotor.disk_mean(),
@@ -79,9 +84,26 @@ impl RelaxationExchange {
         for (b, blade) in reached.blades.iter().enumerate() {
             self.passages[row(step, b, self.n_blades, n)] = Passage::from(&blade.modal);
         }
-        if !self.renews(step) {
-            return Ok(());
+        if self.renews(step) {
+            self.renew(reached)?;
         }
+        self.memory = self.kept(step, reached);
+        Ok(())
+    }
+
+    /// Memory of the sections in the inflow of the map, in which the next step begins.
+    fn kept(&self, step: usize, reached: &Reached) -> MemoryRows {
+        let Reached { place, blades, elapsed, .. } = reached;
+        let (rotor, width) = (place.rotor, self.steady.width());
+        MemoryRows::of(self.rows(step).zip(*blades).enumerate().map(|(b, (k, blade))| {
+            let inflow = rotor.held_inflow(&self.steady.inflow[k * width..(k + 1) * width]);
+            rotor.kept(place.air, place.hub, blade, &inflow, self.memory.step(b, *elapsed))
+        }))
+    }
+
+    /// Converges wake and circulation anew for the motion of the last revolution.
+    fn renew(&mut self, reached: &Reached) -> Result<(), WakeError> {
+        let n = self.passages.len();
         let blades: Vec<BladeInstant> = self
             .passages
             .iter()

@@ -4,8 +4,9 @@
 //! lambda_far <- lambda_far + omega_lambda (lambda_far of the wake - lambda_far) [ribera2004].
 
 use super::Place;
+use crate::blade::memory_rows::MemoryRows;
 use crate::inflow::disk::{DiskMean, LiftingDisk};
-use crate::rotor::circulation::BladeInstant;
+use crate::rotor::circulation::{BladeInTime, BladeInstant};
 use crate::rotor::hub::Rotor;
 use crate::wake::{RelaxationOptions, RelaxationWake, WakeError, WakeOptions};
 use serde::{Deserialize, Serialize};
@@ -67,6 +68,8 @@ pub struct SteadyWake {
     pub circulation: Vec<f64>,
     /// Total inflow (n_azimuths, n_stations), thin sections twice as wide.
     pub inflow: Vec<f64>,
+    /// Memory of sections that remember, of the periodic motion last seen; by azimuth.
+    pub memory: MemoryRows,
     /// Whether the last pass ended at rest.
     pub converged: bool,
     /// The last iteration.
@@ -104,6 +107,7 @@ impl SteadyWake {
             lambda_far: inflow.clone(),
             circulation: vec![0.0; inflow.len()],
             inflow,
+            memory: MemoryRows::default(),
             converged: false,
             last: None,
             step_share: 1.0,
@@ -159,6 +163,7 @@ impl SteadyWake {
         blades: &[BladeInstant],
         most: usize,
     ) -> Result<bool, WakeError> {
+        self.remember(place, blades);
         if self.wake.is_none() {
             let mean = self.mean_inflow();
             self.wake = Some(RelaxationWake::new(self.options, self.own, place.wake_hub(), mean)?);
@@ -259,7 +264,8 @@ impl SteadyWake {
         let n = self.disk.stations.len();
         let mut slope = vec![0.0; n];
         let rows = self.lambda_far.chunks_exact(n).zip(self.circulation.chunks_exact_mut(n));
-        for (blade, (lambda, circulation)) in blades.iter().zip(rows) {
+        for (k, (instant, (lambda, circulation))) in blades.iter().zip(rows).enumerate() {
+            let blade = BladeInTime { instant, past: self.memory.periodic(k) };
             place.rotor.section_circulation(place.air, place.hub, blade, lambda, circulation, &mut slope);
         }
         self.inflow.clone_from(&self.lambda_far);
@@ -268,10 +274,19 @@ impl SteadyWake {
     /// Circulation and near wake together at every azimuth.
     fn solve(&mut self, place: &Place, blades: &[BladeInstant]) -> Result<(), WakeError> {
         let (far, start) = (&self.lambda_far, &self.circulation);
-        let all = place.rotor.circulations(place.air, &self.options, place.hub, blades, far, start)?;
+        let known = (blades, &self.memory);
+        let all = place.rotor.circulations(place.air, &self.options, place.hub, known, far, start)?;
         (self.circulation, self.inflow) = (all.gamma, all.inflow);
         self.followed += all.followed as u64;
+        self.remember(place, blades);
         Ok(())
+    }
+
+    /// Memory of the sections in the inflow as it is.
+    fn remember(&mut self, place: &Place, blades: &[BladeInstant]) {
+        let (rotor, width) = (place.rotor, self.width());
+        let row = |k: usize| rotor.held_inflow(&self.inflow[k * width..(k + 1) * width]);
+        self.memory = rotor.periodic_memory(place.air, place.hub, blades, row);
     }
 }
 

@@ -89,8 +89,10 @@ impl Task for BladePass<'_> {
         let psi = system.rotors[r].azimuth(spin.psi, self.b);
         let control = system.blade_pitch(r, at.inputs, (at.t, &spin), self.b);
         let inflow = match at.inputs.inflow[r] {
-            HeldInflow::Dynamic => BladeInflow::Disk(disk),
-            _ => system.blade_inflow(r, &[], at.inputs, self.b),
+            HeldInflow::Dynamic => {
+                BladeInflow::Disk(disk).remembering(system.sections_in_time(r, at.t, at.inputs, self.b))
+            }
+            _ => system.blade_inflow(r, (at.t, &[]), at.inputs, self.b),
         };
         let loads = system.rotors[r].undamped_loads(system.air, &hub, psi, &modal, &control, &inflow);
         for i in 0..m {

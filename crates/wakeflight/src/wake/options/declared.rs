@@ -4,9 +4,10 @@
 //! those of forward flight, of hover and climb, and of axial descent; at low speed it is that of forward flight unless told.
 
 use super::describe::{
-    EVERY_MODEL, FREE_WAKES, RELAXATION, TIME_MARCHING, always, by_regime, declare, left_open,
+    EVERY_MODEL, FLOWN, FREE_WAKES, RELAXATION, TIME_MARCHING, always, by_regime, declare, left_open,
 };
 use super::rotor::WakeRotor;
+use crate::airfoil::unsteady::Model as Unsteady;
 use crate::vortex::tree::DEFAULT_TOLERANCE;
 use crate::wake::choices::{
     CoreDistance, Evaluation, FarWake, Form, InboardWake, Predictor, Scheme, ShedWake, Summation,
@@ -37,6 +38,14 @@ declare! {
         /// Blade stations, at the middles of elements that narrow towards the tip.
         n_stations: usize = always(20), between(5.0, 200.0), of(EVERY_MODEL),
             finer_larger("stations", Some(2.0));
+
+        /// How the sections of a blade answer in time. The shed wake is in the states of `attached` and `hgm`: not with a wake that
+        /// sheds vorticity itself.
+        unsteady: Unsteady = always(Unsteady::QuasiSteady), of(FLOWN), source(&["leishman1989", "oye1991", "hansen2004"]);
+
+        /// Whether the drag of a section acts along the whole wind that it meets, its part along the span included; else along the
+        /// part normal to the span.
+        yawed_drag: bool = always(false), of(FLOWN), source(&["johnson1986"]);
 
         /// What the stencils act on: displacement from the release point, or position.
         form: Form = always(Form::Displacement);

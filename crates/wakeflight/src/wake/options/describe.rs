@@ -35,6 +35,9 @@ pub const ANNULAR: &[Model] = &[Model::Annular];
 /// All of them.
 pub const EVERY_MODEL: &[Model] = &[Model::TimeMarching, Model::Relaxation, Model::Dynamic, Model::Annular];
 
+/// Those that a helicopter can fly with.
+pub const FLOWN: &[Model] = &[Model::TimeMarching, Model::Relaxation, Model::Dynamic];
+
 /// Kind of a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]

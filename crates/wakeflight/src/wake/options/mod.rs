@@ -6,7 +6,9 @@ mod rotor;
 mod rules;
 
 pub use declared::{MarchingOptions, RelaxationOptions, WakeOptions};
-pub use describe::{Descriptor, EVERY_MODEL, FREE_WAKES, Kind, Model, Plain, Start, Told, Value, Word};
+pub use describe::{
+    Descriptor, EVERY_MODEL, FLOWN, FREE_WAKES, Kind, Model, Plain, Start, Told, Value, Word,
+};
 pub use rotor::WakeRotor;
 pub use rules::OUTER_END;
 

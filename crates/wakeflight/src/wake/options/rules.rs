@@ -4,7 +4,7 @@ use super::declared::{MarchingOptions, RelaxationOptions, WakeOptions};
 use super::describe::short;
 use super::rotor::WakeRotor;
 use crate::vortex::tree::Method;
-use crate::wake::choices::{FarWake, Form, InboardWake, Summation, Trailers};
+use crate::wake::choices::{FarWake, Form, InboardWake, ShedWake, Summation, Trailers};
 use crate::wake::error::WakeError;
 use std::f64::consts::TAU;
 
@@ -180,10 +180,26 @@ impl WakeOptions {
         )
     }
 
+    /// Checks that no shed wake is counted twice: in the states of the sections and among the vortices.
+    pub fn check_shed_wake(&self) -> Result<(), WakeError> {
+        let sheds = self.trailers == Trailers::FullSpan && self.shed_wake != ShedWake::None;
+        demand(
+            !(sheds && self.unsteady.sheds()),
+            "unsteady",
+            || format!("'{}'", self.unsteady.name()),
+            || {
+                "the shed wake is in its states, it must not be among the vortices too: choose trailers = tip, or shed_wake = \
+                 none, or unsteady = quasi-steady or oye"
+                    .to_owned()
+            },
+        )
+    }
+
     /// Checks every value, with the rotor they belong to.
     pub fn validate(&self) -> Result<(), WakeError> {
         self.rotor.validate()?;
         self.check_alone()?;
+        self.check_shed_wake()?;
         let WakeRotor { n_blades, radius, root_cutout, hinge_offset, .. } = self.rotor;
         check_azimuth_step(self.azimuth_step, n_blades)?;
         let steps = || format!("must be a whole number of azimuth steps of {}", degrees(self.azimuth_step));
@@ -233,6 +249,7 @@ impl MarchingOptions {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::airfoil::unsteady::Model as Unsteady;
     use crate::wake::options::describe::{Descriptor, FREE_WAKES, Kind, Told};
 
     fn options() -> WakeOptions {
@@ -273,6 +290,15 @@ mod tests {
         assert!(refused(&|o| (full_span(o), o.inboard_wake = InboardWake::Sheet).0).contains("inboard_wake"));
         assert!(refused(&|o| (full_span(o), o.n_trailers = 22).0).contains("n_stations + 1 = 21"));
         assert!(refused(&|o| (full_span(o), o.release_radius = 0.98).0).contains("release_radius = 0.98"));
+        let twice = refused(&|o| (full_span(o), o.unsteady = Unsteady::Hgm).0);
+        assert!(twice.contains("unsteady = 'hgm'") && twice.contains("trailers = tip"), "{twice}");
+        let allowed = |change: &dyn Fn(&mut WakeOptions)| {
+            let mut options = WakeOptions { trailers: Trailers::FullSpan, ..options() };
+            change(&mut options);
+            options.validate().is_ok()
+        };
+        assert!(allowed(&|o| o.unsteady = Unsteady::Oye));
+        assert!(allowed(&|o| (o.unsteady, o.shed_wake) = (Unsteady::Attached, ShedWake::None)));
         let nothing = RelaxationOptions { relaxation: 0.0, ..RelaxationOptions::default() };
         assert!(nothing.validate().unwrap_err().to_string().contains("relaxation = 0"));
         let filtered = MarchingOptions { time_filter: 0.05, ..MarchingOptions::default() };
@@ -300,6 +326,6 @@ mod tests {
             }
         }
         let shared = WakeOptions::descriptors().iter().filter(|told| told.models == FREE_WAKES).count();
-        assert_eq!(shared, WakeOptions::descriptors().len() - 2);
+        assert_eq!(shared, WakeOptions::descriptors().len() - 4);
     }
 }
