@@ -38,9 +38,9 @@ def test_an_annotation_says_what_fits(annotation, right, wrong):
 def test_the_line_names_argument_value_and_what_is_allowed():
     with pytest.raises(wf.InputError, match=r"^maneuver = 'arrested-descent': must be a Maneuver \(wf.load_maneuver"):
         wf.fly(object.__new__(wf.Trim), "arrested-descent")
-    with pytest.raises(wf.InputError, match="^condition = 3: must be a FlightCondition"):
+    with pytest.raises(wf.InputError, match=r"^condition = 3: must be a FlightCondition"):
         wf.trim(wf.load_aircraft("uh60a"), condition=3)
-    with pytest.raises(wf.InputError, match="^name_or_path = None: must be a text or a Path"):
+    with pytest.raises(wf.InputError, match=r"^name_or_path = None: must be a text or a Path"):
         wf.load_aircraft(None)
 
 

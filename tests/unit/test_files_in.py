@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Files come in one way: plain, of bounded size, text of a known encoding, no name that leads elsewhere, nothing of theirs told."""
+"""Files come in one way: plain, of bounded size, text of a known encoding, no name that leads elsewhere, nothing told of them."""
 
 import ast
 import codecs
@@ -144,8 +144,17 @@ def test_text_of_an_unknown_encoding_is_refused_with_its_place(folder, encoding)
 
 @pytest.mark.parametrize(
     "content",
-    ["x = " + "[" * 10**5, "a." * 20000 + "b = 1", "x = " + "{a=" * 300, "[" + "a." * 500 + "b]", "x = " + "9" * 10**5]
-    + ["x = [" + "[" * 20 + "]" * 20 + "]", 'name = "a\\u0000b"', 'name = "a\\u001bb"', '"a\\u007fb" = 1'],
+    [
+        "x = " + "[" * 10**5,
+        "a." * 20000 + "b = 1",
+        "x = " + "{a=" * 300,
+        "[" + "a." * 500 + "b]",
+        "x = " + "9" * 10**5,
+        "x = [" + "[" * 20 + "]" * 20 + "]",
+        'name = "a\\u0000b"',
+        'name = "a\\u001bb"',
+        '"a\\u007fb" = 1',
+    ],
 )
 def test_toml_without_end_or_with_control_characters_is_refused(tmp_path, content):
     path = tmp_path / "m.toml"

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
+@checked
 def save(dataset: xr.Dataset, path: str | Path) -> Path:
     """Write NetCDF-4, compressed; the same dataset gives the same bytes. Returns the path."""
     path = Path(path)
