@@ -20,7 +20,7 @@ PYTHON ?= $(firstword $(foreach p,python3 python3.14 python3.13 python3.12 pytho
 	$(p) -c 'import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo $(p))))
 present = $(shell command -v $(1) 2>/dev/null)
 
-.PHONY: fly test validate bench docs wheel clean tools
+.PHONY: fly test validate bench fuzz docs wheel clean tools
 .NOTPARALLEL:
 
 fly: $(STAMPS)/package
@@ -54,6 +54,10 @@ wheel: $(STAMPS)/build
 docs: $(STAMPS)/docs $(STAMPS)/package
 	NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --quiet
 	@echo "documentation: $(CURDIR)/site/index.html"
+
+# random inputs of every kind, a hundred thousand of them: CASES, SEED and WORKERS are yours to choose
+fuzz: $(STAMPS)/dev $(STAMPS)/package
+	$(BIN)/python tests/fuzz/fuzz.py --cases $(or $(CASES),100000) --seed $(or $(SEED),1) --workers $(or $(WORKERS),2)
 
 clean:
 	rm -rf $(VENV) target runs dist site .pytest_cache .ruff_cache .mypy_cache .hypothesis

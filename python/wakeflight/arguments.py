@@ -210,7 +210,12 @@ def _answering(protocol: type) -> Kind:
 
 def _in_a_row(value: Any) -> bool:
     """Whether a value is several in a row: a list, a tuple, an array; no text and no mapping."""
-    return {"__len__", "__getitem__", "__iter__"} <= set(dir(value)) and not isinstance(value, str | bytes | Mapping)
+    if isinstance(value, str | bytes | Mapping) or not {"__len__", "__getitem__", "__iter__"} <= set(dir(value)):
+        return False
+    try:
+        return len(value) >= 0
+    except TypeError:  # an array without dimensions, a class
+        return False
 
 
 def is_whole(value: Any) -> bool:

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Sequence, Set
 from functools import cache
 from importlib import resources
 
@@ -26,7 +26,7 @@ def known_keys() -> frozenset[str]:
 
 
 @checked
-def bibtex(keys: Iterable[str]) -> str:
+def bibtex(keys: Sequence[str] | Set[str]) -> str:
     """BibTeX of `keys`, each once, sorted by key."""
     wanted = tuple(keys)
     for key in wanted:

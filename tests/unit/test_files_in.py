@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Files come in one way: plain, of bounded size, text of a known encoding, no name leading elsewhere, nothing told of them."""
+"""Files come in one way: plain, of bounded size, text of a known encoding, no name that leads elsewhere, nothing told of them."""
 
 import ast
 import codecs

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""What holds for any input: parsers give back what was written or refuse it, units convert both ways, tables keep their values,
+"""What holds for any input: parsers give back what was written or refuse it, units convert both ways, tables keep values,
 geometry its invariants."""
 
 import json
 import math
 import tempfile
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -182,7 +183,7 @@ def test_a_table_that_is_continued_keeps_its_own_values_and_closes(slope, last, 
     for name, grid in found.items():
         assert grid["x"][0] == pytest.approx(-math.pi)
         assert grid["x"][-1] == pytest.approx(math.pi)
-        assert all(b > a for a, b in zip(grid["x"], grid["x"][1:], strict=False))
+        assert all(b > a for a, b in pairwise(grid["x"]))
         by_angle = dict(zip(grid["x"], grid["values"], strict=True))
         assert all(by_angle[x] == row for x, row in zip(cut[name]["x"], cut[name]["values"], strict=True))
     assert min(min(row) for row in found["cd"]["values"]) >= 0.0
@@ -245,7 +246,7 @@ def test_induced_velocity_turns_and_moves_with_its_filament(nodes, at, shift, an
 def test_induced_velocity_is_linear_and_changes_sign_with_the_order_of_the_nodes(nodes, at, strength):
     one = velocity([at], nodes, 1.0)
     # parts that cancel leave their rounding
-    parts = sum(np.abs(velocity([at], pair, 1.0)).max() for pair in zip(nodes, nodes[1:], strict=False))
+    parts = sum(np.abs(velocity([at], pair, 1.0)).max() for pair in pairwise(nodes))
     rounding = 1e-12 * parts + 1e-300
     assert velocity([at], nodes, strength) == pytest.approx(strength * one, rel=1e-12, abs=abs(strength) * rounding)
     assert velocity([at], nodes[::-1], 1.0) == pytest.approx(-one, rel=1e-9, abs=1e-9 * parts + 1e-300)

@@ -66,6 +66,7 @@ class _Kept(io.RawIOBase):
         return self.file.tell()
 
 
+@checked
 def save(dataset: xr.Dataset, path: str | Path) -> Path:
     """Write NetCDF-4, compressed; the same dataset gives the same bytes. Returns the path.
 

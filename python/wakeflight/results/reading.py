@@ -109,6 +109,8 @@ def opened(path: Path) -> xr.Dataset:
 def of_kind(data: xr.Dataset, path: Path, wanted: str | None = None) -> xr.Dataset:
     """`data` if it is whole by the schema of its kind, of the kind `wanted` where one is; ResultsError otherwise."""
     found = next((kind for kind, table in KINDS.items() if not _lacking(data, table)), None)
+    if wanted is not None and wanted not in KINDS:
+        raise ResultsError.of("kind", wanted, f"allowed: {', '.join(KINDS)}")
     if wanted is not None and found != wanted:
         lacking = _lacking(data, KINDS[wanted])
         what = f"holds a {found}" if found else f"holds no {wanted}: it has no {', '.join(lacking[:3])}"

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 import time
+from collections.abc import Mapping, Sequence
 from inspect import signature
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -54,7 +55,7 @@ def tunnel(
     collective_at: Any = "root",
     lateral_cyclic: Any = None,
     longitudinal_cyclic: Any = None,
-    higher_harmonics: Any = (),
+    higher_harmonics: Sequence[Any] | Mapping[str, Any] = (),
     thrust: Any = None,
     ct: float | None = None,
     torque: Any = None,

@@ -7,6 +7,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..arguments import checked
 from ..monitors import Monitor, failures, lines, warnings
 from ..results import save
 from ..rotor_speed import CONSTANT, RotorSpeed
@@ -58,6 +59,7 @@ class Tunnel(Solved):
         """What lies beyond physics: a stand that has any is raised in a `NumericalFailure`, not returned."""
         return failures(self.monitors)
 
+    @checked
     def transient(
         self,
         collective: Sequence[Any],

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -30,7 +30,7 @@ def converge(
     run: str | Maneuver = "trim",
     *,
     vary: str,
-    values: Any,
+    values: str | Sequence[Any],
     condition: FlightCondition | None = None,
     inflow: str | InflowModel = "time-marching",
     revolutions: float | None = None,

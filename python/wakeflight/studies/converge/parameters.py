@@ -7,7 +7,8 @@ import math
 from dataclasses import dataclass, replace
 from typing import Any, Literal
 
-from ...errors import InputError
+from ...arguments import is_number, is_whole
+from ...errors import InputError, one_line
 from ...inflow import InflowModel
 from ...options import DECLARED, options_of
 from ...units import quantity
@@ -115,8 +116,17 @@ def settings(chosen: Parameter, values: Any) -> list[Setting]:
     return read
 
 
+def _label(value: Any) -> str:
+    """A setting as it is told."""
+    if isinstance(value, str):
+        return value.strip()
+    if is_whole(value):
+        return str(value) if abs(value) < 1e15 else "beyond all range"
+    return f"{value:g}" if is_number(value) else one_line(value)
+
+
 def _setting(chosen: Parameter, value: Any) -> Setting:
-    label = value.strip() if isinstance(value, str) else f"{value:g}" if isinstance(value, float) else str(value)
+    label = _label(value)
     if chosen.kind == "angle":
         argument: Any = label if isinstance(value, str) else value
         number = quantity(argument, "rad", chosen.option)
