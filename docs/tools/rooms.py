@@ -24,7 +24,7 @@ ROOMS = {
     "report": ("report",),
     "plotting": ("plotting",),
     "export": ("export",),
-    "flight": ("flight*", "recorder", "simulation", "stepping", "snapshot", "integrators"),
+    "flight": ("flight*", "recorder", "resuming", "runlog", "simulation", "stepping", "snapshot", "integrators"),
     "tunnel": ("tunnel",),
     "trim": ("trim",),
     "exchange": ("exchange",),
@@ -44,7 +44,7 @@ ROOMS = {
         "sticks",
     ),
     "results": ("results",),
-    "basics": ("errors", "arguments", "atomic", "references", "progress", "views"),
+    "basics": ("errors", "arguments", "atomic", "interruption", "references", "progress", "views"),
 }
 """Rooms of Python and the modules in them; a module that is in none is a room of its own."""
 

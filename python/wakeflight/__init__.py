@@ -33,13 +33,14 @@ if TYPE_CHECKING:
         from_control,
         load_control,
     )
-    from .errors import InputError, NumericalFailure, WakeflightError
+    from .errors import InputError, Interrupted, NumericalFailure, StorageFailure, WakeflightError
     from .export import export
     from .flight import Flight, fly
     from .inflow import AnnularInflow, DynamicInflow, RelaxationWake, TimeMarchingWake, inflow_model
     from .maneuvers import Maneuver, arrested_descent, load_maneuver, roll_reversal
     from .modes import blade_modes
     from .references import bibtex
+    from .resuming import branch, open_run, recover, rerun, resume
     from .simulation import Simulation
     from .snapshot import Snapshot
     from .studies.converge import converge
@@ -69,7 +70,9 @@ _HOME = {
     "load_control": "control",
     "converge": "studies.converge",
     "InputError": "errors",
+    "Interrupted": "errors",
     "NumericalFailure": "errors",
+    "StorageFailure": "errors",
     "WakeflightError": "errors",
     "export": "export",
     "Flight": "flight",
@@ -85,6 +88,11 @@ _HOME = {
     "roll_reversal": "maneuvers",
     "blade_modes": "modes",
     "bibtex": "references",
+    "branch": "resuming",
+    "open_run": "resuming",
+    "recover": "resuming",
+    "rerun": "resuming",
+    "resume": "resuming",
     "Simulation": "simulation",
     "Snapshot": "snapshot",
     "Trim": "trim",
@@ -107,6 +115,7 @@ __all__ = [
     "Flight",
     "FlightCondition",
     "InputError",
+    "Interrupted",
     "Maneuver",
     "NumericalFailure",
     "PitchBiasActuator",
@@ -117,6 +126,7 @@ __all__ = [
     "Servos",
     "Simulation",
     "Snapshot",
+    "StorageFailure",
     "TimeMarchingWake",
     "Trim",
     "Tunnel",
@@ -128,6 +138,7 @@ __all__ = [
     "arrested_descent",
     "bibtex",
     "blade_modes",
+    "branch",
     "condition_for",
     "converge",
     "export",
@@ -139,6 +150,10 @@ __all__ = [
     "load_control",
     "load_maneuver",
     "load_rotor",
+    "open_run",
+    "recover",
+    "rerun",
+    "resume",
     "roll_reversal",
     "trim",
     "tunnel",

@@ -1,19 +1,22 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """The command line: names in, everything checked before anything starts, one line for whatever is wrong.
 
-One file per command; `groups` declares the options that several share. Exit codes: 0 finished, 2 bad input, 3 numerical
-failure (what was computed is kept).
+One file per command; `groups` declares the options that several share. Exit codes: 0 finished; 1 a run flown again has other
+bits; 2 bad input; 3 numerical failure, or a disk that does not take what is written (what was computed is kept); 130 and 143
+interrupted by SIGINT and SIGTERM (what was flown is kept).
 """
 
 from __future__ import annotations
 
+import contextlib
 import sys
 from typing import Annotated
 
 import typer
 
 from ..errors import NumericalFailure, WakeflightError, one_line
-from . import case, compare, converge, export, fly, listing, modes, paper, report, trim, tunnel, validate
+from ..interruption import answered
+from . import case, compare, converge, export, fly, listing, modes, paper, report, resume, trim, tunnel, validate
 from .groups import expanded
 
 app = typer.Typer(
@@ -35,6 +38,9 @@ for _command in (
     tunnel.tunnel,
     paper.paper,
     export.export,
+    resume.resume,
+    resume.recover,
+    resume.rerun,
 ):
     # in the order in which help lists them
     app.command()(expanded(_command))
@@ -67,7 +73,12 @@ def _everywhere(
 def main(arguments: list[str] | None = None) -> None:
     """Run the command line and exit; every expected error is one line on standard error."""
     try:
-        code = app(args=arguments, prog_name="wakeflight", standalone_mode=False) or 0
+        for stream in (sys.stdout, sys.stderr):
+            # a locale that lacks a character does not end a run
+            with contextlib.suppress(AttributeError):
+                stream.reconfigure(errors="replace")  # type: ignore[union-attr]
+        with answered():
+            code = app(args=arguments, prog_name="wakeflight", standalone_mode=False) or 0
     except NumericalFailure as failure:
         code = _complain(f"numerical failure: {failure}", failure.exit_code)
     except WakeflightError as reason:
