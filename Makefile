@@ -20,7 +20,7 @@ PYTHON ?= $(firstword $(foreach p,python3 python3.14 python3.13 python3.12 pytho
 	$(p) -c 'import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo $(p))))
 present = $(shell command -v $(1) 2>/dev/null)
 
-.PHONY: fly test validate bench clean tools
+.PHONY: fly test validate bench docs clean tools
 .NOTPARALLEL:
 
 fly: $(STAMPS)/package
@@ -45,8 +45,13 @@ validate: $(STAMPS)/dev $(STAMPS)/package
 bench: $(STAMPS)/package
 	$(BIN)/python benchmarks/bench.py $(if $(QUICK),--quick) $(PARTS)
 
+# the site, into site/: pages as they are, reference from docstrings, examples executed (kept until they change)
+docs: $(STAMPS)/docs $(STAMPS)/package
+	NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --quiet
+	@echo "documentation: $(CURDIR)/site/index.html"
+
 clean:
-	rm -rf $(VENV) target runs .pytest_cache .ruff_cache .mypy_cache .hypothesis
+	rm -rf $(VENV) target runs site .pytest_cache .ruff_cache .mypy_cache .hypothesis
 
 # one clear line for what is missing
 tools:
@@ -67,6 +72,11 @@ $(STAMPS)/core: pyproject.toml constraints.txt | $(BIN)/python
 $(STAMPS)/dev: $(STAMPS)/core
 	$(BIN)/python -c 'import tomllib; print(*tomllib.load(open("pyproject.toml", "rb"))["dependency-groups"]["dev"], sep="\n")' > $(STAMPS)/dev.txt
 	$(BIN)/python -m pip install --quiet --requirement $(STAMPS)/dev.txt
+	@touch $@
+
+$(STAMPS)/docs: $(STAMPS)/core
+	$(BIN)/python -c 'import tomllib; print(*tomllib.load(open("pyproject.toml", "rb"))["dependency-groups"]["docs"], sep="\n")' > $(STAMPS)/docs.txt
+	$(BIN)/python -m pip install --quiet --requirement $(STAMPS)/docs.txt
 	@touch $@
 
 # the wheel, built by pip through maturin in release and installed: tests run what users run, not the checkout

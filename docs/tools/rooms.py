@@ -24,13 +24,14 @@ ROOMS = {
     "report": ("report",),
     "plotting": ("plotting",),
     "export": ("export",),
+    "linear": ("linear", "handling"),
     "flight": ("flight*", "recorder", "resuming", "runlog", "simulation", "stepping", "snapshot", "integrators"),
     "tunnel": ("tunnel",),
     "trim": ("trim",),
     "exchange": ("exchange",),
     "model": ("model", "modes", "vortex", "wing", "airfoil_loop"),
     "monitors": ("monitors", "limits"),
-    "aircraft": ("aircraft", "thinning"),
+    "aircraft": ("aircraft", "thinning", "file_schemas"),
     "inputs": (
         "condition",
         "inflow",
@@ -40,22 +41,22 @@ ROOMS = {
         "regime",
         "rotor_speed",
         "units",
-        "text",
         "sticks",
     ),
     "results": ("results",),
-    "basics": ("errors", "arguments", "atomic", "interruption", "references", "progress", "views"),
+    "basics": ("errors", "arguments", "atomic", "interruption", "text", "references", "progress", "views"),
 }
 """Rooms of Python and the modules in them; a module that is in none is a room of its own."""
 
 MEANING = {
     "flight": "a simulation stepped, kept and continued; a manoeuvre flown with it; integrators, what is recorded",
+    "linear": "linear models about a trim: derivatives, periodic and constant systems, modes, reduction; handling qualities",
     "trim": "the state in which the aircraft stays: unknowns, equations, free wake in the loop",
     "exchange": "what blades and wake give each other at every azimuth step",
     "model": "what is compiled of aircraft, condition and inflow; blade modes; vortices, wings and sections by themselves",
     "monitors": "what is watched of a result, and its limits",
     "inputs": "condition, inflow models and their options, manoeuvres, units: what a user states",
-    "basics": "errors, arguments checked by their annotations, bibliography, progress, tables for notebooks",
+    "basics": "errors, arguments checked by their annotations, files read safely, bibliography, progress, tables for notebooks",
     "_core": "the border: shapes and numbers checked, nothing calculated",
 }
 """Rooms whose text is not that of a package."""

@@ -35,8 +35,11 @@ if TYPE_CHECKING:
     )
     from .errors import InputError, Interrupted, NumericalFailure, StorageFailure, WakeflightError
     from .export import export
+    from .file_schemas import file_schema
     from .flight import Flight, fly
+    from .handling import HandlingQualities, handling_qualities
     from .inflow import AnnularInflow, DynamicInflow, RelaxationWake, TimeMarchingWake, inflow_model
+    from .linear import LinearModel, linearize
     from .maneuvers import Maneuver, arrested_descent, load_maneuver, roll_reversal
     from .modes import blade_modes
     from .references import bibtex
@@ -75,13 +78,18 @@ _HOME = {
     "StorageFailure": "errors",
     "WakeflightError": "errors",
     "export": "export",
+    "file_schema": "file_schemas",
     "Flight": "flight",
     "fly": "flight",
+    "HandlingQualities": "handling",
+    "handling_qualities": "handling",
     "AnnularInflow": "inflow",
     "DynamicInflow": "inflow",
     "RelaxationWake": "inflow",
     "TimeMarchingWake": "inflow",
     "inflow_model": "inflow",
+    "LinearModel": "linear",
+    "linearize": "linear",
     "Maneuver": "maneuvers",
     "arrested_descent": "maneuvers",
     "load_maneuver": "maneuvers",
@@ -114,8 +122,10 @@ __all__ = [
     "DynamicInflow",
     "Flight",
     "FlightCondition",
+    "HandlingQualities",
     "InputError",
     "Interrupted",
+    "LinearModel",
     "Maneuver",
     "NumericalFailure",
     "PitchBiasActuator",
@@ -142,10 +152,13 @@ __all__ = [
     "condition_for",
     "converge",
     "export",
+    "file_schema",
     "fly",
     "from_control",
+    "handling_qualities",
     "induced_velocity",
     "inflow_model",
+    "linearize",
     "load_aircraft",
     "load_control",
     "load_maneuver",

@@ -4,7 +4,7 @@
     @checked
     def fly(start: Trim, maneuver: Maneuver, revolutions: float | None = None): ...
 
-What an argument may be is declared once, in the signature; `checked` refuses whatever else is given in one line that names
+What an argument may be is declared once, in the signature; `checked` refuses whatever else is given, in one line that names
 the argument, the value and what is allowed. Numbers must be finite and no truth values, texts must be text; quantities with a
 unit are annotated `Any` and read by `units.quantity`; ranges are checked where they are known, in the function itself. Where an
 object holds something else than it is given: `Annotated[held, given]`.

@@ -32,6 +32,14 @@ class InputError(WakeflightError, ValueError):
         where = f"{shortened(str(file), 240)}: " if file is not None else ""
         return cls(f"{where}{shortened(str(field), 120)} = {_shown(value)}: {allowed}")
 
+    @classmethod
+    def choice(cls, field: str, value: object, names: Iterable[str], more: str = "", file: object = None) -> InputError:
+        """Error about a field that takes one of `names`, the nearest of them first; more: what else is taken."""
+        known = list(names)
+        near = get_close_matches(str(value)[:80].lower(), known, n=1, cutoff=0.6)
+        meant = f"did you mean {near[0]}? " if near else ""
+        return cls.of(field, value, f"{meant}allowed: {', '.join(known)}{more}", file)
+
     def within(self, file: object) -> InputError:
         """The same error with the file it is found in, said once."""
         return self if str(file) in str(self) else type(self)(f"{shortened(str(file), 240)}: {self}")
@@ -39,14 +47,6 @@ class InputError(WakeflightError, ValueError):
 
 class ArgumentError(InputError, TypeError):
     """Arguments that do not fit a function: one too many, one missing, one that it does not have."""
-
-    @classmethod
-    def choice(cls, field: str, value: object, names: Iterable[str], more: str = "", file: object = None) -> InputError:
-        """Error about a field that takes one of `names`, the nearest of them first; more: what else is taken."""
-        known = list(names)
-        near = get_close_matches(str(value).lower(), known, n=1, cutoff=0.6)
-        meant = f"did you mean {near[0]}? " if near else ""
-        return cls.of(field, value, f"{meant}allowed: {', '.join(known)}{more}", file)
 
 
 class NumericalFailure(WakeflightError, RuntimeError):

@@ -51,6 +51,8 @@ FLUSH_EVERY = 0.25
 """Seconds of wall clock after which rows go to the file."""
 EVERY = 1.0
 """Seconds of wall clock between checkpoints, unless something else is asked."""
+SHARE = 0.02
+"""Most of the wall clock that checkpoints may take: on a slow disk they come less often; rows reach the log all the same."""
 LARGEST = 1 << 30
 """Bytes of the largest checkpoint that is read."""
 
@@ -92,6 +94,7 @@ class RunFolder:
         self._rows: FileRows | None = None
         self._wakes: FileWakes | None = None
         self._last_flush = self._last_kept = time.perf_counter()
+        self._pause = self.every
         self._lock = -1
         self.saved: Path | None = None
         """Where the result has been written."""
@@ -259,12 +262,13 @@ class RunFolder:
         if last or now - self._last_flush > FLUSH_EVERY:
             self._flush()
             self._last_flush = now
-        if (last or now - self._last_kept > self.every) and sim.solver.restarts(sim.steps):
+        if (last or now - self._last_kept > self._pause) and sim.solver.restarts(sim.steps):
             self._flush(to_disk=True)
             self._write(f"at-{sim.steps:08d}.ckpt", *_of_moment(Kept(sim.snapshot(), None, sim.seconds)))
             for path in self._moments()[CHECKPOINTS:]:
                 path.unlink(missing_ok=True)
             self._last_kept = time.perf_counter()
+            self._pause = max(self.every, (self._last_kept - now) / SHARE) if self.every else 0.0
 
     def _flush(self, to_disk: bool = False) -> None:
         # a row counts when it is there, so that its wake must be there first

@@ -144,14 +144,3 @@ def in_vortex_ring(descent: float, in_plane: float, hover_inflow: float) -> bool
     hover, and moves in its plane slower than that velocity, which would carry the wake away. All three in one unit.
     """
     return 0.5 * hover_inflow < descent < 2.0 * hover_inflow and in_plane < hover_inflow
-
-
-def momentum_inflows(ct: float, mu: float, climb: float) -> list[float]:
-    """Positive answers of momentum theory, lambda = C_T/(2 sqrt(mu^2 + (lambda + climb)^2)), ascending; all over the tip speed.
-
-    One, but for a descent (climb negative) so fast and steep that a windmill has an answer too: then three.
-    """
-    # squared: lambda^2 (mu^2 + (lambda + climb)^2) = (C_T/2)^2
-    roots = np.roots([1.0, 2 * climb, mu**2 + climb**2, 0.0, -(0.25 * ct * ct)])
-    real = [root.real for root in roots if abs(root.imag) < 1e-6 * (1e-3 + abs(root.real)) and root.real > 0.0]
-    return sorted(float(root) for root in real)

@@ -26,7 +26,7 @@ from .control import Augmentation, from_table
 from .errors import InputError, one_line
 from .references import known_keys
 from .sticks import STICKS
-from .text import is_file, read_toml
+from .text import is_file, name_of, read_toml
 from .units import number, quantity
 
 SHIPPED = ("arrested-descent", "roll-reversal", "roll-reversal-augmented")
@@ -70,6 +70,10 @@ class Maneuver:
 
     def __post_init__(self) -> None:
         """Check names, times and values."""
+        try:
+            name_of(self.name)
+        except ValueError as reason:
+            raise InputError.of("name", self.name, str(reason)) from None
         if (self.revolutions is None) == (self.seconds is None):
             raise InputError.of("duration", self.name, "must be given either in revolutions or in seconds")
         length = self.revolutions if self.revolutions is not None else self.seconds
@@ -333,7 +337,7 @@ class _Controls(BaseModel):
 
 class _File(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
-    name: Annotated[str, Field(min_length=1)]
+    name: str
     duration: _Duration
     controls: _Controls
     notes: str = ""
@@ -341,6 +345,10 @@ class _File(BaseModel):
     travel: _Real | None = None
     rotor_speed: _Real | None = None
     control: dict[str, Any] | None = None
+
+
+FILE_MODEL: type[BaseModel] = _File
+"""What a manoeuvre file may hold."""
 
 
 def _shipped(name: str) -> Maneuver:

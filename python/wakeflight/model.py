@@ -181,7 +181,7 @@ def setting(
     """What the core is built for besides the data, JSON.
 
     Density [kg/m3] and speed of sound [m/s], gravity [m/s2], whether a free wake gives the inflow, discretisation; other: lift of
-    thin sections, flow of mass that dynamic inflow takes.
+    thin sections.
     """
     whole = {
         "air": {"density": air[0], "speed_of_sound": air[1]},
@@ -189,7 +189,6 @@ def setting(
         "free_wake": free_wake,
         "discretisation": resolved,
         "lift": None,
-        "mass_flow": "momentum",
     }
     return json.dumps(whole | other)
 

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Protocol
 
 import numpy as np
@@ -52,14 +52,16 @@ class Ramp:
 
 @dataclass(frozen=True)
 class Added:
-    """A path of sticks with an offset (4,) [m] that is held."""
+    """A path of sticks with an offset (4,) [m] that is held; `known`: times at which the sum is known."""
 
     path: StickPath
     offset: np.ndarray
+    known: dict[float, np.ndarray] = field(default_factory=dict)
 
     def at(self, t: float) -> np.ndarray:
         """Positions (4,) [m from the stop] at time `t` [s]."""
-        return self.path.at(t) + self.offset
+        found = self.known.get(t)
+        return self.path.at(t) + self.offset if found is None else found
 
     def rate(self, t: float) -> np.ndarray:
         """Rates (4,) [m/s]: those of the path."""

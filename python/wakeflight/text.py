@@ -41,6 +41,10 @@ _LONG_KEY = re.compile(
     rf"(?<![\w-])(?:(?:[\w-]++|\"[^\"\n]*+\"|'[^'\n]*+')[ \t]*+\.[ \t]*+){{{DEEPEST + 1}}}", re.ASCII
 )
 
+LONGEST_NAME = 200
+"""Longest name of an aircraft, a section, a manoeuvre."""
+
+_CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\ud800-\udfff]")
 _NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eEdD][+-]?[0-9]+)?", re.ASCII)
 
 
@@ -96,15 +100,17 @@ def content_of(path: Path, largest: int = LARGEST_FILE) -> bytes:
     except (OSError, ValueError) as reason:
         told = reason.strerror if isinstance(reason, OSError) else "no file can have that name"
         raise ValueError(f"cannot be read: {(told or 'refused').lower()}") from reason
-    with os.fdopen(handle, "rb") as file:
+    try:
         what = os.fstat(handle)
         if not stat.S_ISREG(what.st_mode):
             raise ValueError(f"cannot be read: it is {_kind(what.st_mode)}, no file")
         # files of the system say a size of 0 and go on without end
-        try:
+        with open(handle, "rb", closefd=False) as file:
             content = file.read(largest + 1) if what.st_size <= largest else b""
-        except OSError as reason:
-            raise ValueError(f"cannot be read: {(reason.strerror or 'refused').lower()}") from reason
+    except OSError as reason:
+        raise ValueError(f"cannot be read: {(reason.strerror or 'refused').lower()}") from reason
+    finally:
+        os.close(handle)
     if what.st_size > largest or len(content) > largest:
         raise ValueError(f"cannot be read: it is larger than {largest >> 20} MiB")
     return content
@@ -152,10 +158,32 @@ def read_toml(path: Path) -> dict[str, Any]:
         raise ValueError(f"not readable as TOML: {told}") from reason
     level: list[Any] = [content]
     for _ in range(DEEPEST):
+        for each in level:
+            _check_texts(each)
         level = [inner for each in level for inner in _inside(each)]
         if not level:
             return content
     raise ValueError(f"not readable: groups and lists stand within one another more than {DEEPEST} deep")
+
+
+def name_of(text: str) -> str:
+    """`text` if it can be a name: printed as it is, in a line, by every program; ValueError otherwise."""
+    if not text.strip():
+        raise ValueError("must not be empty")
+    if len(text) > LONGEST_NAME:
+        raise ValueError(f"must have at most {LONGEST_NAME} characters")
+    if not text.isprintable():
+        wrong = next(each for each in text if not each.isprintable())
+        raise ValueError(f"must be text that can be printed; it holds {wrong!a}")
+    return text
+
+
+def _check_texts(value: Any) -> None:
+    """Refuse texts and keys with characters that end files, lines or screens: of control ones, blanks and line ends are text."""
+    texts = [*value, *value.values()] if isinstance(value, dict) else value
+    for each in texts:
+        if isinstance(each, str) and _CONTROL.search(each):
+            raise ValueError(f"not readable: the text '{shortened(one_line(each), 60)}' holds a control character")
 
 
 def _inside(value: Any) -> list[Any]:

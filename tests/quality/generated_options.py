@@ -106,7 +106,9 @@ def _members(node):
 
 
 def _signature(node, indent):
-    decorators = "".join(f"{indent}@{ast.unparse(each)}\n" for each in node.decorator_list)
+    # what is checked is no part of a type
+    listed = (ast.unparse(each) for each in node.decorator_list)
+    decorators = "".join(f"{indent}@{each}\n" for each in listed if each != "checked")
     returns = f" -> {ast.unparse(node.returns)}" if node.returns else ""
     arguments = ast.unparse(node.args)
     return f"{decorators}{indent}def {node.name}({arguments}){returns}: ..."

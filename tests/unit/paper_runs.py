@@ -3,7 +3,7 @@
 import numpy as np
 import synthetic
 
-from wakeflight.studies.paper.cases import base_cases, question_cases
+from wakeflight.studies.paper.cases import base_cases, question_cases, reading_cases
 
 COUNTED = {
     "segment_evaluations_trim": 40_000_000,
@@ -24,8 +24,9 @@ COUNTED = {
 def runs():
     """Every case, an arrested descent in each."""
     made = {}
-    for case in [*base_cases(), *question_cases()]:
-        revolutions = 36 if case.maneuver == "roll-reversal" else 12
+    for case in [*base_cases(), *question_cases(), *reading_cases()]:
+        rolls = case.maneuver != "arrested-descent"
+        revolutions = 36 if rolls else 12
         strength = {"dynamic": 0.8, "relaxation": 1.0}.get(case.inflow.name, 1.1)
         more = {**COUNTED, "relaxation_updates": revolutions, "unconverged_revolutions": 1}
         made[case.name] = synthetic.run(case.inflow.name, revolutions, strength, **more).assign_attrs(
@@ -36,9 +37,9 @@ def runs():
             made[case.name][name] = 0.01 * shape
         if case.inflow.name == "time-marching":
             made[case.name]["wake"] = made[case.name]["wake"] * 1.01
-        if case.maneuver == "roll-reversal":
+        if rolls:
             t = made[case.name].time.values
-            for name in ("p", "roll", "v", "moment_x", "lateral"):
+            for name in ("p", "roll", "v", "moment_x", "lateral", "sas_lateral"):
                 # right, left, right again
                 made[case.name][name] = ("time", strength * np.sin(t * 2.2) * (1 + 0.1 * t))
     return made

@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 
-from wakeflight.limits import in_vortex_ring, momentum_inflows, stall_angles, stalled, stalled_share, sticks_beyond
+from wakeflight.limits import in_vortex_ring, stall_angles, stalled, stalled_share, sticks_beyond
 
 
 def table(peak, reversed_peak, slope=0.1):
@@ -52,19 +52,3 @@ def test_sticks_beyond_their_stops_are_told_in_inches():
 def test_the_vortex_ring_range_is_half_to_twice_the_hover_inflow_of_an_axial_descent():
     assert [in_vortex_ring(descent, 0.0, 10.0) for descent in (2.0, 6.0, 19.0, 21.0)] == [False, True, True, False]
     assert not in_vortex_ring(10.0, 30.0, 10.0)
-
-
-@pytest.mark.parametrize(("mu", "climb"), [(0.0, 0.0), (0.0, 0.05), (0.0, -0.05), (0.2, -0.05), (0.2, 0.02)])
-def test_momentum_theory_has_one_answer_but_for_the_windmill(mu, climb):
-    ct = 0.005
-    (inflow,) = momentum_inflows(ct, mu, climb)
-    assert 2 * inflow * np.hypot(mu, inflow + climb) == pytest.approx(ct, rel=1e-9)
-
-
-def test_a_windmill_begins_at_twice_the_hover_inflow():
-    # axially v_i = V/2 -+ sqrt(V^2/4 - v_h^2) appear beside the root of powered flight
-    ct, hover = 0.005, 0.05
-    assert len(momentum_inflows(ct, 0.0, -1.99 * hover)) == 1
-    assert momentum_inflows(ct, 0.0, -2.5 * hover) == pytest.approx(
-        [0.5 * hover, 2.0 * hover, hover * (1.25 + np.sqrt(1.5625 + 1))]
-    )

@@ -10,7 +10,8 @@ import pytest
 import synthetic
 import xarray as xr
 
-from wakeflight.studies.paper import cases, cost, quantities, viewer
+from wakeflight.report import viewer
+from wakeflight.studies.paper import cases, cost, quantities, readings
 from wakeflight.studies.paper.figures import FIGURES
 from wakeflight.studies.paper.statements import VERDICTS, counts, judge
 from wakeflight.studies.paper.statements.conclusions import lag
@@ -94,6 +95,35 @@ def test_every_statement_is_judged(runs):
     table = judge(runs)
     assert sum(counts(table).values()) == len(table) > 40
     assert [row.key for row in table if not row.conditions] == ["conclusion 6"]
+
+
+def test_figures_12_to_19_are_judged_in_both_readings_with_both_wakes(runs):
+    rows = readings.judged(runs)
+    assert [row.key for row in rows] == [row.key for row in judge(runs) if re.match(r"Fig. 1[2-9]", row.key)]
+    assert [row.verdicts[0] for row in rows] == [row.verdict for row in judge(runs) if row.key in {r.key for r in rows}]
+    # what it takes follows from the verdicts
+    for verdicts, needs in (
+        (("holds",) * 4, "the same in all"),
+        (("does not hold", "holds partly", "holds", "holds"), "best augmented"),
+        (("holds partly", "holds", "holds partly", "holds"), "best with the standard wake"),
+        (("holds partly", "does not hold", "holds partly", "holds"), "best augmented, standard wake"),
+    ):
+        met = {"holds": (True, True), "holds partly": (True, False), "does not hold": (False, False)}
+        statements = tuple(
+            Statement("", "", tuple(within("x", 1.0, 0.0, 2.0 if each else 0.5) for each in met[verdict]))
+            for verdict in verdicts
+        )
+        assert readings.Row(statements).needs == needs
+    assert sum(int(row[1]) for row in readings.counted(rows)) == len(rows)
+
+
+def test_the_second_reading_differs_from_the_first_by_its_augmentation_alone():
+    first, second = (case.case().maneuver for case in (cases.base_cases()[3], cases.reading_cases()[0]))
+    assert first.corners_of == second.corners_of and first.control is None and second.control is not None
+    wakes = {case.name: case.inflow for case in cases.reading_cases()}
+    for model in ("relaxation", "time-marching"):
+        assert wakes[f"roll-reversal-standard/{model}"] == wakes[f"{cases.AUGMENTED}-standard/{model}"]
+        assert wakes[f"{cases.AUGMENTED}/{model}"] == cases.MODELS[model]
 
 
 HISTORIES = (

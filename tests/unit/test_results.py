@@ -106,3 +106,47 @@ def test_a_file_that_is_no_result_is_refused(tmp_path):
     text.write_text("not a file of this kind")
     with pytest.raises(ResultsError, match="not a NetCDF"):
         load(text)
+
+
+def test_a_file_says_when_its_bytes_are_not_those_it_was_written_with(tmp_path):
+    path = save(assemble(synthetic.run_arrays(2), synthetic.attributes()), tmp_path / "run.nc")
+    content = path.read_bytes()
+    for at in range(0, len(content) - 24, len(content) // 97):
+        path.write_bytes(content[:at] + bytes([content[at] ^ 0x10]) + content[at + 1 :])
+        with pytest.raises(ResultsError, match=r"run.nc: .*(damaged|not those)"):
+            load(path)
+    for cut in (0, 1, 24, 1000, len(content) // 2):
+        path.write_bytes(content[:cut])
+        with pytest.raises(ResultsError, match=r"run.nc: (the file is empty|not a NetCDF|damaged)"):
+            load(path)
+
+
+def test_a_file_that_another_program_copied_is_known_by_its_content(tmp_path):
+    import xarray as xr
+
+    run = assemble(synthetic.run_arrays(2), synthetic.attributes())
+    with xr.open_dataset(save(run, tmp_path / "run.nc"), engine="h5netcdf") as file:
+        copied = file.load()
+    copied.to_netcdf(tmp_path / "copy.nc", engine="h5netcdf")
+    assert load(tmp_path / "copy.nc").identical(run)
+    copied["u"][3] += 1e-9
+    copied.to_netcdf(tmp_path / "changed.nc", engine="h5netcdf")
+    with pytest.raises(ResultsError, match="numbers are not those"):
+        load(tmp_path / "changed.nc")
+
+
+def test_a_result_of_another_kind_is_told_by_its_kind(tmp_path):
+    trim = save(assemble_trim(synthetic.trim_arrays(), {}), tmp_path / "trim.nc")
+    with pytest.raises(ResultsError, match=r"trim.nc: holds a trim; needed is the file of a flight"):
+        load(trim, "flight")
+
+
+def test_a_file_cannot_claim_more_than_it_can_hold(tmp_path):
+    import h5netcdf
+
+    path = tmp_path / "bomb.nc"
+    with h5netcdf.File(path, "w") as file:
+        file.dimensions = {"time": 10**12}
+        file.create_variable("u", ("time",), "f8", chunks=(1000,))
+    with pytest.raises(ResultsError, match="cannot hold"):
+        load(path)

@@ -2,7 +2,8 @@
 
 use crate::checks::invalid;
 use pyo3::prelude::*;
-use wakeflight::inflow::pitt_peters::{self, DiskCondition, PittPeters};
+use wakeflight::inflow::pitt_peters::{DiskCondition, PittPeters};
+use wakeflight::inflow::{descent, momentum};
 
 /// Rates (lambda_0, lambda_s, lambda_c) [1/s] of Pitt-Peters inflow at `omega` [rad/s].
 ///
@@ -22,10 +23,14 @@ pub fn pitt_peters_rate(
 }
 
 /// Mean induced inflow of momentum theory at `ct`, squared in-plane advance ratio and velocity down along the shaft; of
-/// several values the one continued from hover, or the least.
+/// several values the one continued from hover.
 #[pyfunction]
-#[pyo3(signature = (ct, mu_squared, mu_z, least=false))]
-pub fn momentum_inflow(ct: f64, mu_squared: f64, mu_z: f64, least: bool) -> f64 {
-    let found = if least { pitt_peters::least_momentum_inflow } else { pitt_peters::momentum_inflow };
-    found(ct, mu_squared, mu_z)
+pub fn momentum_inflow(ct: f64, mu_squared: f64, mu_z: f64) -> f64 {
+    momentum::momentum_inflow(ct, mu_squared, mu_z)
+}
+
+/// Mean induced inflow that dynamic inflow takes: momentum theory, in descent the curve of tests.
+#[pyfunction]
+pub fn descent_inflow(ct: f64, mu_squared: f64, mu_z: f64) -> f64 {
+    descent::descent_inflow(ct, mu_squared, mu_z)
 }

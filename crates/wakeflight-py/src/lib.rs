@@ -28,7 +28,7 @@ mod _core {
         blade::BladeModes,
         exchange::{PyExchange, PySteadyWake},
         flight::{FixedStep, Linearised},
-        inflow::{momentum_inflow, pitt_peters_rate},
+        inflow::{descent_inflow, momentum_inflow, pitt_peters_rate},
         options::{check_options, option_descriptors},
         system::{PyInputs, PySystem},
         trim::{TrimLayout, TrimProblem},

@@ -8,8 +8,9 @@ from __future__ import annotations
 import math
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
+from ..text import name_of
 from .number import Weight, scalar, vector
 
 DEG = math.pi / 180.0
@@ -23,6 +24,9 @@ Rate = scalar("rad/s", above=0.0, high=1000.0)
 Area = scalar("m2", above=0.0, high=1000.0)
 Fraction = scalar("1", low=0.0, high=1.0)
 Spring = scalar("N m/rad", low=0.0, high=1e9)
+
+Name = Annotated[str, Field(min_length=1), AfterValidator(name_of)]
+"""Name of an aircraft, a rotor, a section."""
 
 Rotation = Literal["ccw", "cw"]
 """Way a rotor turns seen from above: counter-clockwise (the blade on the right advances) or clockwise."""

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Annotated, Any
 
-from pydantic import BeforeValidator, ValidationInfo
+from pydantic import BeforeValidator, ValidationInfo, WithJsonSchema
 
 from ..errors import one_line
 from ..units import STANDARD_GRAVITY, convert, shown
@@ -17,6 +17,32 @@ CONFIDENCES = ("A", "B", "C", "A/B", "A/C", "B/C", "A/B/C")
 """A read in a source, B recalled, C estimated or computed; several letters where parts differ."""
 
 _KEYS = {"value", "unit", "source", "confidence", "note"}
+
+
+def told(
+    value: dict[str, Any], text: str, required: tuple[str, ...] = ("value", "source", "confidence")
+) -> WithJsonSchema:
+    """A number as editors are told of it: `value` is the JSON schema of what is published, `text` what it may be."""
+    properties = {
+        "value": value,
+        "unit": {"type": "string"},
+        "source": {
+            "type": ["string", "array"],
+            "items": {"type": "string"},
+            "description": "a key of [sources], or several",
+        },
+        "confidence": {"enum": list(CONFIDENCES), "description": "A read in a source, B recalled, C estimated"},
+        "note": {"type": "string"},
+    }
+    return WithJsonSchema(
+        {
+            "type": "object",
+            "description": text,
+            "properties": properties,
+            "required": list(required),
+            "additionalProperties": False,
+        }
+    )
 
 
 @dataclass(frozen=True)
@@ -133,7 +159,7 @@ def scalar(
             raise ValueError("must be a whole number")
         return Number(number, provenance)
 
-    return Annotated[Number, BeforeValidator(validate)]
+    return Annotated[Number, BeforeValidator(validate), told({"type": "number"}, f"a number with a unit of {si_unit}")]
 
 
 def _weight(entry: Any, info: ValidationInfo) -> Number:
@@ -149,7 +175,7 @@ def _weight(entry: Any, info: ValidationInfo) -> Number:
     return Number(newtons, provenance)
 
 
-Weight = Annotated[Number, BeforeValidator(_weight)]
+Weight = Annotated[Number, BeforeValidator(_weight), told({"type": "number"}, "a force (lbf, N) or a mass (lb, kg)")]
 """Type of a weight [N], given as force or as mass (times 9.80665 m/s2)."""
 
 
@@ -157,7 +183,9 @@ def _noted(entry: Any, info: ValidationInfo) -> Provenance:
     return provenance_of(entry, info, _KEYS, "a table { value, unit, source, confidence }")
 
 
-Noted = Annotated[Provenance, BeforeValidator(_noted)]
+Noted = Annotated[
+    Provenance, BeforeValidator(_noted), told({}, "a published figure, for comparison alone", ("source", "confidence"))
+]
 """Type of a published figure kept for comparison: any value, any unit, never used by the model."""
 
 
@@ -188,7 +216,9 @@ def vector(
             raise ValueError(f"must be {allowed}")
         return Numbers(tuple(row(each, given) for each in values), provenance)
 
-    return Annotated[Numbers, BeforeValidator(validate)]
+    return Annotated[
+        Numbers, BeforeValidator(validate), told({"type": "array"}, f"{shape} in {', '.join(dict.fromkeys(units))}")
+    ]
 
 
 def numbers(si_unit: str, low: float = -math.inf, high: float = math.inf) -> Any:
@@ -203,4 +233,5 @@ def numbers(si_unit: str, low: float = -math.inf, high: float = math.inf) -> Any
             raise ValueError(f"must be {allowed}")
         return Numbers(tuple(read(value, provenance.unit) for value in values), provenance)
 
-    return Annotated[Numbers, BeforeValidator(validate)]
+    shown = told({"type": ["number", "array"]}, f"one or more numbers in {si_unit}")
+    return Annotated[Numbers, BeforeValidator(validate), shown]

@@ -15,7 +15,7 @@ from typing import Annotated, Any
 from pydantic import Field, model_validator
 
 from .blade_file import BladeGroup
-from .fields import Angle, Condition, Group, Length, Position, Rate, Rotation, Source
+from .fields import Angle, Condition, Group, Length, Name, Position, Rate, Rotation, Source
 from .number import Noted, scalar
 from .schema import LagDamper
 from .span import Section, along_span
@@ -55,7 +55,7 @@ class RotorDiscretisation(Group):
 class RotorFile(Group):
     """A whole rotor file."""
 
-    name: Annotated[str, Field(min_length=1)]
+    name: Name
     notes: str = ""
     sources: dict[str, Source] = Field(default_factory=dict)
     rotor: RotorGroup

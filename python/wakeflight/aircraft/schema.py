@@ -15,7 +15,21 @@ from typing import Annotated, Literal
 from pydantic import Field, PrivateAttr, ValidationInfo, model_validator
 
 from .blade_file import BladeGroup
-from .fields import DEG, Angle, Area, Condition, Fraction, Group, Length, Position, Rate, Rotation, Source, Station
+from .fields import (
+    DEG,
+    Angle,
+    Area,
+    Condition,
+    Fraction,
+    Group,
+    Length,
+    Name,
+    Position,
+    Rate,
+    Rotation,
+    Source,
+    Station,
+)
 from .number import Noted, Weight, scalar, vector
 from .span import Section, along_span
 from .tables import Table
@@ -262,7 +276,7 @@ class Discretisation(Group):
 class AircraftFile(Group):
     """A whole aircraft file."""
 
-    name: Annotated[str, Field(min_length=1)]
+    name: Name
     notes: str = ""
     # the aircraft is the mirror image of what the file says
     mirrored: bool = False

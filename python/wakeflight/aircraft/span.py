@@ -22,7 +22,7 @@ from ..errors import InputError
 from ..text import read_text
 from .airfoils import EXTENSIONS, NAMED_WAYS, Grid, analytic_polar, covers, extended
 from .c81 import read_c81
-from .fields import Angle, Group
+from .fields import Angle, Group, Name
 from .number import Provenance, numbers, provenance_of, scalar, vector
 from .sections import check_sections
 from .tables import Table, by_mach, keep, named_file
@@ -72,7 +72,7 @@ class Polar(Group):
 class Section(Group):
     """A section: `cl`, `cd`, `cm` by Mach number, a `c81` deck, or an analytic `polar`; `stations` and `extent` in radii."""
 
-    name: Annotated[str, Field(min_length=1)]
+    name: Name
     stations: numbers("1", low=0.0, high=1.0) | None = None
     extent: vector("1", 2, low=0.0, high=1.0) | None = None
     cl: Table | None = None

@@ -9,14 +9,33 @@ interrupted by SIGINT and SIGTERM (what was flown is kept).
 from __future__ import annotations
 
 import contextlib
+import os
 import sys
+import traceback
+from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from ..errors import NumericalFailure, WakeflightError, one_line
+from ..errors import NumericalFailure, WakeflightError, one_line, shortened
 from ..interruption import answered
-from . import case, compare, converge, export, fly, listing, modes, paper, report, resume, trim, tunnel, validate
+from . import (
+    case,
+    compare,
+    converge,
+    export,
+    fly,
+    linearize,
+    listing,
+    modes,
+    new_aircraft,
+    paper,
+    report,
+    resume,
+    trim,
+    tunnel,
+    validate,
+)
 from .groups import expanded
 
 app = typer.Typer(
@@ -32,6 +51,7 @@ for _command in (
     compare.compare,
     trim.trim,
     modes.modes,
+    linearize.linearize,
     report.report,
     converge.converge,
     validate.validate,
@@ -46,6 +66,8 @@ for _command in (
     app.command()(expanded(_command))
 app.command("run")(case.case)
 app.command("list")(listing.listing)
+app.command("new-aircraft")(new_aircraft.new_aircraft)
+app.command("schema")(new_aircraft.schema)
 
 
 def _version(asked: bool) -> None:
@@ -87,7 +109,9 @@ def main(arguments: list[str] | None = None) -> None:
         code = _complain("interrupted", 130)
     except Exception as reason:  # usage errors of the parser, which carry their own message
         if not hasattr(reason, "format_message"):
-            raise
+            if os.environ.get("WAKEFLIGHT_TRACEBACK"):
+                raise
+            sys.exit(_complain(_unforeseen(reason), 1))
         message = reason.format_message()
         if type(reason).__name__.startswith("NoArgsIsHelp"):  # the message is the help text
             print(message, file=sys.stderr)
@@ -95,6 +119,14 @@ def main(arguments: list[str] | None = None) -> None:
         else:
             code = _complain(message, 2)
     sys.exit(code if isinstance(code, int) else 0)
+
+
+def _unforeseen(reason: Exception) -> str:
+    """An error that no part of the program foresaw, in one line with its place."""
+    place = traceback.extract_tb(reason.__traceback__)[-1]
+    at = f"{Path(place.filename).name}, line {place.lineno}"
+    told = f"{type(reason).__name__}: {shortened(one_line(reason), 200)}"
+    return f"a fault of the program, not of the input ({told}; {at}); please report it, with WAKEFLIGHT_TRACEBACK=1 set for more"
 
 
 def _complain(message: str, code: int) -> int:

@@ -54,7 +54,7 @@ def converge(
     if repeated == "tunnel":
         set_threads(run.threads)
         told = f"rotor on the stand: {rotor or vehicle.aircraft}"
-        flown, base = _on_stand(rotor or vehicle.aircraft, given, stand, inflow, wake)
+        flown, base = _on_stand(rotor or vehicle.aircraft, vehicle.allow_outside, given, stand, inflow, wake)
         writable(folder)
     else:
         foreign = ", ".join(stand.given()) or ("rotor" if rotor else "")
@@ -82,7 +82,9 @@ def converge(
         raise NumericalFailure("; ".join(study.failures))
 
 
-def _on_stand(rotor: str, given: Condition, stand: Stand, inflow: str, wake: Wake) -> tuple[Any, dict[str, Any]]:
+def _on_stand(
+    rotor: str, allow_outside: bool, given: Condition, stand: Stand, inflow: str, wake: Wake
+) -> tuple[Any, dict[str, Any]]:
     """The rotor, and what its runs on the stand start from."""
     from ..aircraft import load_rotor
 
@@ -91,4 +93,4 @@ def _on_stand(rotor: str, given: Condition, stand: Stand, inflow: str, wake: Wak
     if flight:
         raise InputError.of(next(iter(flight)), next(iter(flight.values())), "not an option of a rotor on a stand")
     model = inflow_from(inflow, wake, on_stand=True)
-    return load_rotor(rotor), {"inflow": model, "stand": stand.given() | known}
+    return load_rotor(rotor, allow_outside), {"inflow": model, "stand": stand.given() | known}

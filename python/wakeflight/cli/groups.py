@@ -88,6 +88,9 @@ Threads = Annotated[
 ]
 Folder = Annotated[Path, typer.Argument(metavar="DIR", help="folder of a flight")]
 Checkpoint = Annotated[str, typer.Option("--checkpoint", help="wall clock between checkpoints")]
+AllowOutside = Annotated[
+    bool, typer.Option("--allow-outside", help="read tables elsewhere than beside the aircraft or rotor file, or below")
+]
 
 
 class Group:
@@ -106,6 +109,7 @@ class Vehicle(Group):
     aircraft: AircraftName = "uh60a"
     loading: Annotated[str | None, told("--loading", "named mass and c.g. of the aircraft file", OF_AIRCRAFT)] = None
     condition: Annotated[str | None, told("--condition", "named condition of the aircraft file", OF_AIRCRAFT)] = None
+    allow_outside: AllowOutside = False
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 from ..errors import InputError
-from .groups import AircraftName, Out
+from .groups import AircraftName, AllowOutside, Out
 from .outcome import folder_made
 from .request import writable
 
@@ -17,12 +17,13 @@ from .request import writable
 def modes(
     aircraft: AircraftName = "uh60a",
     n_modes: Annotated[int | None, typer.Option("--modes", help="number of modes; the aircraft's own")] = None,
+    allow_outside: AllowOutside = False,
     out: Out = None,
 ) -> None:
     """Print blade frequencies and what each mode is made of, compare with references, draw shapes and fan plot."""
     from ..aircraft import load_aircraft
 
-    loaded = load_aircraft(aircraft)
+    loaded = load_aircraft(aircraft, allow_outside=allow_outside)
     if n_modes is not None and not 1 <= n_modes <= 12:
         raise InputError.of("--modes", n_modes, "must lie between 1 and 12")
     folder = writable(out or Path("runs/modes"))

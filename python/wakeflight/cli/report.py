@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 
 from ..errors import InputError
+from ..text import is_file
 from .groups import Drawing, FigureFormat, Out
 from .outcome import folder_made
 from .request import check_drawing, writable
@@ -20,12 +21,13 @@ def report(
     out: Out = None,
 ) -> None:
     """Rebuild figures and report of a finished run, beside it or in --out."""
-    if not run.is_file():
+    if not is_file(run):
         raise InputError.of("RUN.nc", str(run), "no such file; allowed: the run.nc of a finished run")
     check_drawing(Drawing(figure_format=figure_format))
-    folder = folder_made(writable(out or run.parent))
     from .. import report as reports
     from .. import results
 
-    reports.write(results.load(run), folder, figure_format=figure_format)
+    flight = results.load(run, "flight")
+    folder = folder_made(writable(out or run.parent))
+    reports.write(flight, folder, figure_format=figure_format)
     print(f"wrote {folder / 'report.html'}")

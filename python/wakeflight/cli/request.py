@@ -88,7 +88,7 @@ def request(
     model = inflow_from(inflow, wake, lenient=lenient)
     if blades not in (None, "rigid", "flexible"):
         raise InputError.choice("--blades", blades, ("rigid", "flexible"))
-    loaded = load_aircraft(vehicle.aircraft, vehicle.loading)
+    loaded = load_aircraft(vehicle.aircraft, vehicle.loading, vehicle.allow_outside)
     if blades == "rigid":
         loaded = loaded.with_rigid_blades()
     elif blades == "flexible" and not loaded.flexible:

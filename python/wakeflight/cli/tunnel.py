@@ -10,7 +10,7 @@ from typing import Annotated, Any
 import typer
 
 from ..errors import InputError
-from .groups import AircraftName, Drawing, Group, Run, Wake, offered
+from .groups import AircraftName, AllowOutside, Drawing, Group, Run, Wake, offered
 from .outcome import folder_made, keeping
 from .request import check_drawing, inflow_from, set_threads, writable
 
@@ -79,6 +79,7 @@ def tunnel(
     ] = None,
     *,
     setting: Setting,
+    allow_outside: AllowOutside = False,
     inflow: Annotated[
         str,
         typer.Option(
@@ -100,11 +101,13 @@ def tunnel(
     check_drawing(drawing)
     set_threads(run.threads)
     folder = writable(run.out or Path("runs/tunnel"))
+    from ..aircraft import load_rotor
     from ..plotting import tunnel as figures
     from ..progress import Progress
     from ..results import save
     from ..tunnel import tunnel as solve
 
+    turned = load_rotor(rotor or aircraft, allow_outside)
     solve = keeping(solve, lambda partial: partial.save(folder_made(folder) / "tunnel.nc"))
     model = inflow_from(inflow, wake, on_stand=True)
     arguments = vars(setting) | stand.arguments()
@@ -112,7 +115,7 @@ def tunnel(
         raise InputError.of("--then, --duration", then or duration, "one needs the other")
     moved = [tuple(part.strip() for part in each.split(",")) for each in then or []]
     with Progress() as progress:
-        result = solve(rotor or aircraft, inflow=model, progress=progress, **arguments)
+        result = solve(turned, inflow=model, progress=progress, **arguments)
         print(result.table())
         result.save(folder_made(folder) / "tunnel.nc")
         written = [folder / "tunnel.nc"]

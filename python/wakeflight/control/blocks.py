@@ -8,8 +8,6 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-import numpy as np
-
 from ..errors import InputError
 from ..sticks import STICKS
 from ..units import STANDARD_GRAVITY, quantity
@@ -64,7 +62,7 @@ class Block(Controller):
         self.outputs = tuple(name for name in STICKS if any(self.terms[k].stick == name for k in self.sizes))
         constants = (gains.seconds(f"{self.name}.{name}", text) for name, text in (("lag", lag), ("washout", washout)))
         self.constants = tuple(constants)
-        self.limit = gains.authority(f"{self.name}.authority", authority, (10.0,) * 4)
+        self.limit = gains.authority(f"{self.name}.authority", authority, (10.0,) * 4).tolist()
         self._forget()
 
     def _forget(self) -> None:
@@ -76,7 +74,8 @@ class Block(Controller):
 
     def reset(self, start: Start) -> None:
         """At rest; the authority in inches of this aircraft."""
-        self.limit = gains.authority(f"{self.name}.authority", self.given["authority"], start.aircraft.stick_travel_in)
+        travel, authority = start.aircraft.stick_travel_in, self.given["authority"]
+        self.limit = gains.authority(f"{self.name}.authority", authority, travel).tolist()
         self._forget()
 
     def step(self, t: float, sensors: Sensors, stick: Mapping[str, float]) -> dict[str, float]:
@@ -106,9 +105,9 @@ class Block(Controller):
 
     def within(self, moved: dict[str, float]) -> dict[str, float]:
         """Within the authority; keeps which sticks were held back."""
-        limits = {name: self.limit[STICKS.index(name)] for name in moved}
+        limits = dict(zip(STICKS, self.limit, strict=True))
         self.held = tuple(name for name, inches in moved.items() if abs(inches) > limits[name])
-        return {name: float(np.clip(inches, -limits[name], limits[name])) for name, inches in moved.items()}
+        return {name: min(limits[name], max(-limits[name], inches)) for name, inches in moved.items()}
 
     @property
     def saturated(self) -> tuple[str, ...]:

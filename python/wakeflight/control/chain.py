@@ -127,7 +127,7 @@ class Chain:
         self.pilot, self.hands = hands + INCH * self.parallel, sticks.at(t1)
         if self.servos is None:
             self.reached = self.hands + offset
-            return Added(sticks, offset)
+            return Added(sticks, offset, {t0: hands + offset, t1: self.reached})
         before = self.reached
         self.reached, limited, stopped = self.servos.advance(hands + offset, self.hands + offset, t1 - t0)
         self.seconds["actuator_rate_limited"] += (t1 - t0) * limited
@@ -155,13 +155,15 @@ class Chain:
                 shared += member.answer
             for name in controller.saturated:
                 held[STICKS.index(name)] = 1.0
-        within = np.clip(shared, -self.limit, self.limit)
+        within = np.minimum(np.maximum(shared, -self.limit), self.limit)
         held[within != shared] = 1.0
         self.series = self.scale * (within + own)
         # a parallel actuator takes the stick no further than its stops; where the hands have it already beyond, no further
-        at = hands / INCH
-        moved = np.clip(at + self.scale * parallel, np.minimum(at, 0.0), np.maximum(at, self.travel))
-        self.parallel = np.where(parallel == 0.0, 0.0, moved - at)
+        if parallel.any():
+            at = hands / INCH
+            moved = np.clip(at + self.scale * parallel, np.minimum(at, 0.0), np.maximum(at, self.travel))
+            parallel = np.where(parallel == 0.0, 0.0, moved - at)
+        self.parallel = parallel
         return held
 
     def memory(self) -> bytes:

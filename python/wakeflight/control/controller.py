@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -107,17 +108,17 @@ def inches(answer: Any, outputs: tuple[str, ...]) -> np.ndarray:
     """What a controller answered (4,) [in]; ValueError says what is wrong with it."""
     if not isinstance(answer, Mapping):
         raise ValueError(f"step returned {type(answer).__name__}, must be a dict of inches by stick")
-    found = np.zeros(4)
+    found = [0.0] * 4
     for name, value in answer.items():
         if name not in outputs:
             raise ValueError(f"step moved '{name}', allowed are its outputs: {', '.join(outputs)}")
-        if isinstance(value, bool | str | bytes) or np.ndim(value) != 0:
+        if isinstance(value, bool | str | bytes) or not (isinstance(value, float) or np.ndim(value) == 0):
             raise ValueError(f"step returned {name} = {value!r}, must be a number of inches")
         try:
             number = float(value)
         except (TypeError, ValueError):
             raise ValueError(f"step returned {name} = {value!r}, must be a number of inches") from None
-        if not np.isfinite(number):
+        if not math.isfinite(number):
             raise ValueError(f"step returned {name} = {number}, must be finite inches")
         found[STICKS.index(name)] = number
-    return found
+    return np.array(found)

@@ -107,7 +107,7 @@ class Moving:
         if abs(np.linalg.det(matrix / np.abs(matrix).max())) < 1e-9:
             raise InputError.of("actuators", "servos", "need a rigging whose matrix can be inverted")
         self.tau, self.rate, self.stops = servos.time_constant, servos.fastest, servos.stops
-        self.offset, self.matrix = offset, matrix
+        self.offset, self.matrix, self.back = offset, matrix, np.linalg.inv(matrix)
         self.at = offset + matrix @ stick
 
     def advance(self, stick0: np.ndarray, stick1: np.ndarray, dt: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -117,11 +117,11 @@ class Moving:
             limited_lag(*each, dt, self.tau, self.rate)
             for each in zip(self.at.tolist(), u0.tolist(), u1.tolist(), strict=True)
         ]
-        free = np.array([x for x, _ in moved])
-        self.at = np.clip(free, *self.stops)
+        free, (low, high) = np.array([x for x, _ in moved]), self.stops
+        self.at = np.minimum(np.maximum(free, low), high)
         return self.stick, np.array([limited for _, limited in moved]), self.at != free
 
     @property
     def stick(self) -> np.ndarray:
         """Sticks (4,) [m] that stand for where the servos are."""
-        return np.linalg.solve(self.matrix, self.at - self.offset)
+        return self.back @ (self.at - self.offset)

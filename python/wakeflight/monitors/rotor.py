@@ -145,7 +145,7 @@ def axial_flow(mu: Any, mu_z: Any, ct: Any, momentum: bool, time: np.ndarray | N
     """Descent of the disk along its axis against the vortex-ring range, half to twice the hover induced velocity of its thrust.
 
     mu, mu_z: speed of the hub in the disk plane and down the shaft over the tip speed; ct: thrust coefficient; numbers, or
-    (n_times,). momentum: whether the inflow is that of momentum theory, which has no answer there.
+    (n_times,). momentum: whether the inflow is dynamic, which follows a curve through tests there.
     """
     hover = np.sqrt(0.5 * np.abs(ct))
     # with thrust downward the air that comes from above is what a descent is otherwise
@@ -156,7 +156,7 @@ def axial_flow(mu: Any, mu_z: Any, ct: Any, momentum: bool, time: np.ndarray | N
         k = int(np.argmax(inside))
         ratio = float(np.ravel(descent)[k] / np.ravel(hover)[k])
         what = (
-            "momentum theory has no answer there, this inflow is no result"
+            "dynamic inflow follows a curve through scattered tests there, and knows nothing of its unsteadiness"
             if momentum
             else "what a free wake gives there depends on the turns kept"
         )

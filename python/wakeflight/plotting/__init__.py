@@ -70,7 +70,7 @@ FIGURES: tuple[Plot, ...] = (
     Plot(
         "wake-all-blades",
         lambda run: wake_geometry.figure(run, snapshots=[run.sizes["snapshot"] - 1], all_blades=True),
-        wake_geometry.CAPTION,
+        wake_geometry.ALL_CAPTION,
         lambda run: "wake" in run,
     ),
     Plot("flight-path", flight_path.figure, flight_path.CAPTION, _always),

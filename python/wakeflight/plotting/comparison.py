@@ -60,7 +60,7 @@ def wake_side_views(runs: Mapping[str, xr.Dataset]) -> Figure:
     grid = figure.subplots(len(common), 1, sharex=True, squeeze=False)[:, 0]
     for axes, mark in zip(grid, common, strict=True):
         axes.plot((-1, 1), (0, 0), color=style.GREY, linewidth=1.6)
-        for (name, run), color, line in zip(runs.items(), style.COLORS, style.LINES, strict=False):
+        for (name, run), (color, line) in zip(runs.items(), style.looks(runs).values(), strict=True):
             k = int(np.argmin(np.abs(run["snapshot_revolution"].values - mark)))
             blade = run["wake"].isel(snapshot=k, blade=0) / float(run.attrs["radius"])
             axes.plot(blade.sel(xyz="x"), blade.sel(xyz="z"), color=color, linestyle=line, linewidth=1.0, label=name)
@@ -87,7 +87,7 @@ def cost(runs: Mapping[str, xr.Dataset]) -> Figure:
     left = np.zeros(len(names))
     for phase, color in zip(PHASES, style.COLORS, strict=False):
         seconds = np.array([float(runs[name].attrs.get(f"seconds_{phase}", 0.0)) for name in names])
-        axes.barh(names, seconds, left=left, color=color, label=phase, height=0.6)
+        axes.barh([style.plain(name) for name in names], seconds, left=left, color=color, label=phase, height=0.6)
         left += seconds
     for y, total in enumerate(left):
         axes.text(total, y, f" {total:.1f} s", va="center", fontsize=8)

@@ -39,7 +39,10 @@ def figure(study: xr.Dataset) -> Figure:
 
 
 def _title(study: xr.Dataset) -> str:
-    return str(study.attrs["title"]).split(": ")[0] + f": error against cost, {study.attrs['parameter']} varied"
+    return (
+        style.plain(str(study.attrs["title"]).split(": ")[0])
+        + f": error against cost, {study.attrs['parameter']} varied"
+    )
 
 
 def _values(study: xr.Dataset) -> Figure:

@@ -17,6 +17,7 @@ from matplotlib.ticker import MaxNLocator
 from ..results.disk import area_weights, element_widths, first_harmonics
 from ..results.turns import revolutions
 from . import style
+from .histories import one_revolution_mean
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -97,7 +98,7 @@ def draw(
     axes.plot(np.cos(around), np.sin(around), color=style.GREY, linewidth=0.7)
     axes.plot(station[0] * np.cos(around), station[0] * np.sin(around), color=style.GREY, linewidth=0.4)
     axes.set_aspect("equal")
-    axes.set(xlim=(-1.08, 1.08), ylim=(-1.2, 1.2))
+    axes.set(xlim=(-1.2, 1.2), ylim=(-1.2, 1.2))
     axes.set_axis_off()
     return filled
 
@@ -126,22 +127,24 @@ def rows_of_maps(
     symmetric: Sequence[bool],
     title: str,
 ) -> Figure:
-    """Maps in rows, one colour scale per row; a `symmetric` row is drawn about zero in diverging colours.
+    """Maps in rows, one colour scale per row, of all values but for one per cent at either end, which are drawn as the ends.
 
-    Rows that share a label share their colour scale too.
+    A `symmetric` row, and one whose values change sign for good, is drawn about zero in diverging colours. Rows that share a
+    label share their colour scale too.
     """
     columns = max(len(row) for row in rows)
     figure = style.blank(2.15 * len(rows) + 0.5, width=max(2.15 * columns + 0.9, 5.2))
     grid = figure.subplots(len(rows), columns, squeeze=False)
     for i, row in enumerate(rows):
         together = [field.values for k, other in enumerate(rows) if labels[k] == labels[i] for field in other]
-        limits = style.levels(*together, symmetric=symmetric[i])
-        cmap = style.DIVERGING if symmetric[i] else style.SEQUENTIAL
+        about_zero = symmetric[i] or style.signed(*together)
+        limits = style.levels(np.array(style.robust(*together)), symmetric=about_zero)
+        cmap = style.DIVERGING if about_zero else style.SEQUENTIAL
         for j in range(columns):
             if j >= len(row):
                 grid[i, j].set_visible(False)
                 continue
-            filled = draw(grid[i, j], row[j], limits, cmap)
+            filled = draw(grid[i, j], row[j], limits, cmap, extend="both")
             mark_directions(grid[i, j])
             if i == 0:
                 grid[i, j].set_title(column_titles[j])
@@ -154,21 +157,31 @@ def rows_of_maps(
 
 
 def chosen_revolutions(run: xr.Dataset, revolutions: Sequence[float] | None, most: int = 3) -> list[float]:
-    """Revolutions to draw: the given ones, else those of the wake snapshots, else evenly spread."""
+    """Revolutions to draw: the given ones, else the eventful ones."""
     flown = revolutions_flown(run)
     last = int(np.floor(flown + 1e-3))
     if last < 1:
         raise ValueError(f"{flown:.2f} revolutions flown: a disk map needs one at least")
     if revolutions is not None:
         return list(revolutions)
-    marks = run["snapshot_revolution"].values if "snapshot_revolution" in run else np.array([])
-    whole = sorted({round(float(mark)) for mark in marks if 2 <= round(float(mark)) <= last})
-    if not whole:
-        whole = sorted({round(n) for n in np.linspace(1, last, most + 1)} - {1})
-    if not whole:
+    return eventful(run, last, most)
+
+
+def eventful(run: xr.Dataset, last: int, most: int = 3) -> list[float]:
+    """Up to `most` revolutions after the first, ascending: where the load stands farthest above and below its first, the last."""
+    load = -run["force_z"].values
+    mean = one_revolution_mean(run, load)
+    if last < 2 or mean is None:
         return []
-    pick = np.unique(np.round(np.linspace(0, len(whole) - 1, min(most, len(whole)))).astype(int))
-    return [float(whole[k]) for k in pick]
+    whole = np.arange(2, last + 1)
+    # a revolution that ends at n is centred half a turn before
+    about = np.interp(whole - 0.5, revolutions(run), mean) - mean[0]
+    peak, other = (int(whole[find(np.abs(about))]) for find in (np.argmax, np.argmin))
+    ends = [int(whole[find(about)]) for find in (np.argmax, np.argmin)]
+    # the smaller extreme only where it is one
+    order = [peak, last, *(n for n in ends if abs(about[n - 2]) > 0.2 * np.abs(about).max()), (peak + last) // 2, other]
+    order += [int(n) for n in np.round(np.linspace(2, last, most))]
+    return sorted(float(n) for n in list(dict.fromkeys(order))[:most])
 
 
 def _periodic(at: np.ndarray, psi: np.ndarray, values: np.ndarray) -> np.ndarray:

@@ -15,11 +15,11 @@ if TYPE_CHECKING:
 
 CAPTION = (
     "First flap mode by the multiblade transform, β = β₀ + β₁c cos ψ + β₁s sin ψ: β₁c > 0 is disk "
-    "forward-down, β₁s > 0 is advancing side up."
+    "forward-down, β₁s > 0 is advancing side up. Lines are means over one revolution."
 )
 PANELS = (
-    Panel("beta_1c", "β₁c [deg]\n(+ forward-down)", DEG, span=1.0),
-    Panel("beta_1s", "β₁s [deg]\n(+ advancing side up)", DEG, span=1.0),
+    Panel("beta_1c", "β₁c [deg]\n(+ forward-down)", DEG, span=1.0, vibrates=True),
+    Panel("beta_1s", "β₁s [deg]\n(+ advancing side up)", DEG, span=1.0, vibrates=True),
 )
 
 

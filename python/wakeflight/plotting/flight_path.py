@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from . import style
-from .histories import as_mapping
+from .histories import as_mapping, looks_of
 from .style import styled
 
 if TYPE_CHECKING:
@@ -24,7 +24,7 @@ def figure(runs: Runs) -> Figure:
     runs = as_mapping(runs)
     figure = style.blank(4.4)
     side, plan = figure.subplots(2, 1, sharex=True)
-    for (name, run), color, line in zip(runs.items(), style.COLORS, style.LINES, strict=False):
+    for (name, run), (color, line) in zip(runs.items(), looks_of(runs), strict=True):
         time = run.time.values
         marks = np.searchsorted(time, np.arange(0.0, time[-1] + 1e-9))
         for axes, vertical in ((side, -run.down.values), (plan, run.east.values)):

@@ -26,7 +26,8 @@ DEG = float(np.rad2deg(1.0))
 class Panel:
     """One panel: a variable (or the xyz component of one), its label with unit, and the factor to that unit.
 
-    `span` is the least extent of the vertical axis, in the unit drawn.
+    `span` is the least extent of the vertical axis, in the unit drawn. `vibrates`: blades passing shake it, so that the mean over
+    one revolution is drawn and the history itself lightly behind it.
     """
 
     name: str
@@ -34,6 +35,7 @@ class Panel:
     factor: float = 1.0
     component: str | None = None
     span: float = 0.0
+    vibrates: bool = False
 
     def values(self, run: xr.Dataset) -> np.ndarray:
         """The history (time,) in the unit drawn."""
@@ -45,7 +47,7 @@ class Panel:
 
 def as_mapping(runs: Runs) -> Mapping[str, xr.Dataset]:
     """Several runs by name; a single dataset becomes one run without a name."""
-    return by_name(runs, "")
+    return {style.plain(name): run for name, run in by_name(runs, "").items()}
 
 
 def seconds_per_revolution(run: xr.Dataset) -> float:
@@ -64,8 +66,12 @@ def histories(runs: Runs, panels: Sequence[Panel], title: str, columns: int = 2,
     grid = figure.subplots(rows, columns, sharex=True, squeeze=False)
     for k, panel in enumerate(panels):
         axes = grid[k % rows, k // rows]
-        for (name, run), color, line in zip(runs.items(), style.COLORS, style.LINES, strict=False):
+        for (name, run), (color, line) in zip(runs.items(), looks_of(runs), strict=True):
             values = panel.values(run)
+            smooth = one_revolution_mean(run, values) if panel.vibrates else None
+            if smooth is not None:
+                axes.plot(run.time.values, values, color=color, linewidth=0.5, alpha=0.35)
+                values = smooth
             axes.plot(run.time.values, values, color=color, linestyle=line, label=name)
             if not run.attrs.get("finished", 1):
                 axes.plot(run.time.values[-1], values[-1], "x", color=color)
@@ -81,6 +87,28 @@ def histories(runs: Runs, panels: Sequence[Panel], title: str, columns: int = 2,
     figure.suptitle(title, fontsize=10, x=0.01, ha="left")
     figure.align_ylabels()
     return figure
+
+
+def looks_of(runs: Mapping[str, xr.Dataset]) -> list[tuple[str, str]]:
+    """Colour and line of each run; a single one has those of its inflow model, drawn through."""
+    if len(runs) == 1:
+        model = str(next(iter(runs.values())).attrs.get("inflow_model", ""))
+        return [(style.looks([model])[model][0], "-")]
+    return list(style.looks(runs).values())
+
+
+def one_revolution_mean(run: xr.Dataset, values: np.ndarray) -> np.ndarray | None:
+    """The mean over the revolution about each record (time,); at the ends over what there is of it. None in short runs."""
+    step = float(np.median(np.diff(revolutions(run)))) if values.size > 1 else 1.0
+    n = max(round(1.0 / step), 1)
+    if n < 3 or values.size < n:
+        return None
+    # a whole revolution counts both its ends by half: blades pass it n times, whatever n is
+    weights = np.ones(n + 1)
+    weights[[0, -1]] = 0.5
+    there = np.convolve(np.ones(values.size), weights, mode="same")
+    mean: np.ndarray = np.convolve(values, weights, mode="same") / there
+    return mean
 
 
 def _scale_of_revolutions(run: xr.Dataset) -> tuple[Callable[[Any], Any], Callable[[Any], Any]]:

@@ -16,15 +16,15 @@ if TYPE_CHECKING:
 CAPTION = (
     "All loads on the airframe except gravity, in body axes at the fixed body origin: rotor hub, "
     "fuselage, tail surfaces, tail rotor. Z is positive down, so lift is negative Z; M is positive nose "
-    "up, L right side down."
+    "up, L right side down. Lines are means over one revolution, the loads themselves lie lightly behind them."
 )
 PANELS = (
-    Panel("force_x", "X [kN]", 1e-3, span=1.0),
-    Panel("force_y", "Y [kN]", 1e-3, span=1.0),
-    Panel("force_z", "Z [kN]", 1e-3, span=5.0),
-    Panel("moment_x", "L [kN m]", 1e-3, span=1.0),
-    Panel("moment_y", "M [kN m]", 1e-3, span=1.0),
-    Panel("moment_z", "N [kN m]", 1e-3, span=1.0),
+    Panel("force_x", "X [kN]", 1e-3, span=1.0, vibrates=True),
+    Panel("force_y", "Y [kN]", 1e-3, span=1.0, vibrates=True),
+    Panel("force_z", "Z [kN]", 1e-3, span=5.0, vibrates=True),
+    Panel("moment_x", "L [kN m]", 1e-3, span=1.0, vibrates=True),
+    Panel("moment_y", "M [kN m]", 1e-3, span=1.0, vibrates=True),
+    Panel("moment_z", "N [kN m]", 1e-3, span=1.0, vibrates=True),
 )
 
 

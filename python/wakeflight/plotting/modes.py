@@ -105,7 +105,7 @@ def fan_plot(
             color="black",
             markersize=3.5,
             fillstyle="none",
-            label=label,
+            label=style.plain(label),
         )
     axes.set(xlabel="rotor speed [% of nominal]", ylabel="frequency [Hz]", ylim=(0, top), xlim=(percent.min(), 108))
     figure.legend(loc="outside right upper")

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import numpy as np
 from matplotlib.figure import Figure
 
 from .histories import Panel, as_mapping, histories
@@ -18,20 +19,25 @@ CAPTION = (
     "a passage of the blades, largest step of a wake node, odd-even content of the wake)."
 )
 PANELS = (
-    Panel("power", "power [kW]", 1e-3, span=50.0),
-    Panel("ct", "$C_T$ [$10^{-3}$]", 1e3, span=0.5),
+    Panel("power", "power [kW]", 1e-3, span=50.0, vibrates=True),
+    Panel("ct", "$C_T$ [$10^{-3}$]", 1e3, span=0.5, vibrates=True),
     Panel("inflow_mean", "mean inflow λ₀ [–]", span=2e-3),
-    Panel("inflow_max", "largest inflow [–]", span=0.02),
+    Panel("inflow_max", "largest inflow [–]", span=0.02, vibrates=True),
     Panel("stalled_share", "beyond stall [% of disk]", 1e2, span=2.0),
-    Panel("odd_even", "odd–even [R]", span=1e-6),
-    Panel("max_displacement", "node step [m]"),
-    Panel("energy", "energy [kJ]", 1e-3),
+    Panel("odd_even", "odd–even [R]", span=1e-6, vibrates=True),
+    Panel("max_displacement", "node step [m]", vibrates=True),
+    Panel("energy", "energy [kJ]", 1e-3, vibrates=True),
 )
 
 
 def present(runs: Runs) -> tuple[Panel, ...]:
-    """The panels whose variable every run has."""
-    return tuple(panel for panel in PANELS if all(panel.name in run for run in as_mapping(runs).values()))
+    """The panels whose variable every run has, but for those that are nothing in all: a wake's, of a run without one."""
+    named = as_mapping(runs).values()
+    return tuple(
+        panel
+        for panel in PANELS
+        if all(panel.name in run for run in named) and any(bool(np.any(run[panel.name].values)) for run in named)
+    )
 
 
 @styled

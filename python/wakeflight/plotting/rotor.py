@@ -15,15 +15,15 @@ if TYPE_CHECKING:
 
 CAPTION = (
     "Main rotor loads at the hub centre in hub axes (x aft, y right, z up along the shaft), blade inertia"
-    " and weight included. The moment about z is minus the shaft torque."
+    " and weight included. The moment about z is minus the shaft torque. Lines are means over one revolution."
 )
 PANELS = (
-    Panel("hub_force", "force x_h, aft [kN]", 1e-3, "x", span=1.0),
-    Panel("hub_force", "force y_h, right [kN]", 1e-3, "y", span=1.0),
-    Panel("hub_force", "force z_h, up [kN]", 1e-3, "z", span=5.0),
-    Panel("hub_moment", "moment x_h [kN m]", 1e-3, "x", span=1.0),
-    Panel("hub_moment", "moment y_h [kN m]", 1e-3, "y", span=1.0),
-    Panel("hub_moment", "moment z_h [kN m]", 1e-3, "z", span=1.0),
+    Panel("hub_force", "force x_h, aft [kN]", 1e-3, "x", span=1.0, vibrates=True),
+    Panel("hub_force", "force y_h, right [kN]", 1e-3, "y", span=1.0, vibrates=True),
+    Panel("hub_force", "force z_h, up [kN]", 1e-3, "z", span=5.0, vibrates=True),
+    Panel("hub_moment", "moment x_h [kN m]", 1e-3, "x", span=1.0, vibrates=True),
+    Panel("hub_moment", "moment y_h [kN m]", 1e-3, "y", span=1.0, vibrates=True),
+    Panel("hub_moment", "moment z_h [kN m]", 1e-3, "z", span=1.0, vibrates=True),
 )
 
 

@@ -35,9 +35,6 @@ def figure(run: xr.Dataset, revolutions: Sequence[float] | None = None) -> Figur
         [title for _, title, _ in ROWS],
         ["revolution 1 (trim)", *(f"revolution {n:g}" for n in when[1:])],
         [label for _, _, label in ROWS],
-        [
-            name == "cl" and min(float(field.min()) for field in row) < -0.3
-            for (name, _, _), row in zip(ROWS, rows, strict=True)
-        ],
+        [False] * len(ROWS),
         "Section loading over the disk",
     )

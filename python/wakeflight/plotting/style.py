@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import wraps
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
@@ -23,6 +23,8 @@ Result = TypeVar("Result")
 # Okabe and Ito's palette, yellow left out: it vanishes on white
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000")
 LINES = ("-", "--", "-.", ":", "-", "--", "-.")
+# every model has its look wherever it is drawn; other runs take the rest in turn
+MODELS = {"dynamic": ("#009E73", "-."), "relaxation": ("#D55E00", "--"), "time-marching": ("#0072B2", "-")}
 # sequential map for quantities, diverging one for changes and for quantities that change sign
 SEQUENTIAL = "cividis"
 DIVERGING = "RdBu_r"
@@ -94,6 +96,12 @@ def save(figure: Figure, path: str | Path) -> Path:
     return path
 
 
+def plain(name: str) -> str:
+    """A name as text of a figure: what would be read as a formula, or as a line to be left out of the legend, is not."""
+    text = name.replace("$", r"\$")
+    return f" {text}" if text.startswith("_") else text
+
+
 def least_span(axes: Axes, span: float) -> None:
     """Widen the vertical axis to at least `span`: what hardly changes should look as if it hardly changes."""
     low, high = axes.get_ylim()
@@ -112,3 +120,26 @@ def levels(*fields: np.ndarray, symmetric: bool = False) -> tuple[float, float]:
     # a hair wider than the data: the extremes themselves must be filled too
     margin = max(1e-6 * (high - low), 1e-12)
     return low - margin, high + margin
+
+
+def looks(names: Iterable[str]) -> dict[str, tuple[str, str]]:
+    """Colour and line of each run by its name: those of the inflow model it is named after, else the next free ones."""
+    found: dict[str, tuple[str, str]] = {}
+    free = [pair for pair in zip(COLORS, LINES, strict=True) if pair[0] not in {color for color, _ in MODELS.values()}]
+    free += list(MODELS.values())
+    for name in names:
+        found[name] = MODELS[name] if name in MODELS else free[len(found) % len(free)]
+    return found
+
+
+def signed(*fields: np.ndarray, share: float = 0.3) -> bool:
+    """Whether values change sign for good: the smaller side reaches at least `share` of the larger, outliers left out."""
+    low, high = robust(*fields)
+    return min(-low, high) > share * max(-low, high)
+
+
+def robust(*fields: np.ndarray, share: float = 0.01) -> tuple[float, float]:
+    """The range of values but for a `share` at either end, which a passing vortex or reversed flow may take anywhere."""
+    values = np.concatenate([np.ravel(field) for field in fields])
+    low, high = (float(each) for each in np.quantile(values, (share, 1.0 - share)))
+    return low, high

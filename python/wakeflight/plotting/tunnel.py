@@ -17,10 +17,10 @@ if TYPE_CHECKING:
     import xarray as xr
 
 MAPS = (
-    ("inflow", "inflow λ [–], down +", style.SEQUENTIAL, False),
-    ("circulation", "bound circulation Γ [m²/s]", style.SEQUENTIAL, False),
-    ("cl_m2", "C$_l$M² [–]", style.SEQUENTIAL, False),
-    ("alpha", "angle of attack [°]", style.SEQUENTIAL, False),
+    ("inflow", "inflow λ [–], down +"),
+    ("circulation", "bound circulation Γ [m²/s]"),
+    ("cl_m2", "C$_l$M² [–]"),
+    ("alpha", "angle of attack [°]"),
 )
 
 
@@ -28,13 +28,12 @@ MAPS = (
 def maps(data: xr.Dataset) -> Figure:
     """Inflow, circulation, lift times Mach squared and angle of attack over the disk."""
     figure = style.blank(6.4)
-    for axes, (name, label, cmap, symmetric) in zip(figure.subplots(2, 2).flat, MAPS, strict=True):
+    for axes, (name, label) in zip(figure.subplots(2, 2).flat, MAPS, strict=True):
         field = np.degrees(data[name]) if name == "alpha" else data[name]
-        # a map of one value by azimuth still needs a range
         # about the reversed flow the angle of attack takes every value: off the scale, or the map shows nothing else
-        ends = np.quantile(field, (0.01, 0.99)) if name == "alpha" else field.values
-        limits = style.levels(ends, symmetric=symmetric)
-        filled = disk.draw(axes, field, limits, cmap, extend="both" if name == "alpha" else "neither")
+        about_zero = style.signed(field.values)
+        limits = style.levels(np.array(style.robust(field.values)), symmetric=about_zero)
+        filled = disk.draw(axes, field, limits, style.DIVERGING if about_zero else style.SEQUENTIAL, extend="both")
         disk.mark_directions(axes)
         disk.tidy(figure.colorbar(filled, ax=axes, shrink=0.8), label, limits)
     figure.suptitle(_title(data))
@@ -60,7 +59,9 @@ def sections(data: xr.Dataset) -> Figure:
         right.plot(turn, np.append(at.values, at.values[0]), color=color, label=f"r/R = {r:g}")
     right.set(xlabel="azimuth [°]", ylabel="C$_n$M² [–]", xlim=(0, 360), xticks=(0, 90, 180, 270, 360))
     style.least_span(right, 0.02)
-    right.legend()
+    right.legend(
+        loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=3, handlelength=1.0, columnspacing=0.8, fontsize=7
+    )
     figure.suptitle(_title(data))
     return figure
 
@@ -88,7 +89,7 @@ def wake(data: xr.Dataset) -> Figure:
     top.plot(np.cos(around), np.sin(around), color=style.GREY, lw=0.7)
     side.set(xlabel="x/R, aft +", ylabel="z/R, up +", title="from the side", aspect="equal")
     top.set(xlabel="x/R, aft +", ylabel="y/R, right +", title="from above", aspect="equal")
-    top.legend()
+    figure.legend(*top.get_legend_handles_labels(), loc="outside lower center", ncols=n_blades)
     age = np.degrees(data.age)
     far.plot(age, data.tip_vortex_radius, color=style.COLORS[0])
     far.set(xlabel="wake age [°]", ylabel="r/R", title="distance from the shaft, mean over azimuth")
@@ -115,7 +116,9 @@ def transient(data: xr.Dataset) -> Figure:
         if values.ndim == 2:
             for b in range(values.shape[1]):
                 axes.plot(turns, values[:, b], color=style.COLORS[b % 6], lw=0.9, label=f"blade {b + 1}")
-            axes.legend(ncols=2)
+            axes.legend(
+                ncols=4, loc="lower center", bbox_to_anchor=(0.5, 1.0), handlelength=1.0, columnspacing=0.8, fontsize=7
+            )
         else:
             axes.plot(turns, values, color=style.COLORS[0])
         axes.set_ylabel(label)
@@ -125,12 +128,11 @@ def transient(data: xr.Dataset) -> Figure:
     for r, color in zip((0.5, 0.75, 0.95), style.COLORS, strict=False):
         last.plot(turns, strength.interp(station=r), color=color, label=f"r/R = {min(max(r, at[0]), at[-1]):g}")
     last.set_ylabel("mean circulation [m²/s]")
-    last.set_ylim(top=last.get_ylim()[1] + 0.15 * np.ptp(last.get_ylim()))
-    last.legend(ncols=3, loc="upper left")
+    last.legend(ncols=3, loc="lower center", bbox_to_anchor=(0.5, 1.0), handlelength=1.0, columnspacing=0.8, fontsize=7)
     for axes in panels[-1]:
         axes.set_xlabel("revolutions")
     a = data.attrs
-    figure.suptitle(f"{a['aircraft']}, {a['inflow_model']}: a collective that moves")
+    figure.suptitle(f"{style.plain(a['aircraft'])}, {a['inflow_model']}: a collective that moves")
     return figure
 
 
@@ -148,4 +150,4 @@ def write(data: xr.Dataset, folder: Path, figure_format: str = "png") -> list[Pa
 def _title(data: xr.Dataset) -> str:
     a = data.attrs
     averaged = f", mean of {a['averaged']} revolutions" if a["averaged"] else ""
-    return f"{a['aircraft']}, {a['inflow_model']}{averaged}: $C_T$ = {data.ct.item():.5f}, μ = {data.mu.item():.3f}"
+    return f"{style.plain(a['aircraft'])}, {a['inflow_model']}{averaged}: $C_T$ = {data.ct.item():.5f}, μ = {data.mu.item():.3f}"

@@ -16,7 +16,8 @@ from ..plotting.style import save
 from ..progress import Progress, Reported, Silent, heard
 from ..results import by_name
 from ..results import drawn as drawn_there
-from .summary import Row, configuration, counters, summary, trim_table, warnings, watched
+from . import viewer
+from .summary import Row, configuration, counters, physics, summary, trim_table, warnings, watched
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -61,13 +62,22 @@ def write(
     formats = dict.fromkeys(("png", figure_format))
     drawn_there(out_dir, [*(f"{plot.name}.{each}" for plot in plots for each in formats), "report.html"])
     figures, missed = _figures(plots, named if several else first, out_dir, heard(progress), figure_format)
+    viewable = viewer.viewable(named)
     page = environment.get_template("report.html").render(
         title=_title(first, several),
         names=list(named),
         several=several,
         failures={name: run.attrs["failure"] for name, run in named.items() if not run.attrs.get("finished", 1)},
         warnings=[*_common(warnings, named), *missed],
+        flown=_join(physics, named),
         tables=_tables(named, trim),
+        panels=len(named) if viewable else 0,
+        wake_data=viewer.data({str(first.attrs.get("maneuver", "flight")): named}, viewer.rotor(first)).replace(
+            "</", "<\\/"
+        )
+        if viewable
+        else "{}",
+        wake_script=viewer.script() if viewable else "",
         figures=figures,
         configurations={name: configuration(run) for name, run in named.items()},
         version=first.attrs.get("program_version", ""),

@@ -11,11 +11,14 @@ import numpy as np
 
 from ..condition import described
 from ..plotting.disk import revolutions_flown
+from ..plotting.histories import one_revolution_mean
 from ..results.schema import ATTRIBUTES
+from ..units import STANDARD_GRAVITY, convert
 
 if TYPE_CHECKING:
     import xarray as xr
 
+KNOT = convert(1.0, "kt", "m/s")
 COUNTERS = (
     "residual_evaluations",
     "jacobians",
@@ -32,6 +35,43 @@ class Row:
 
     label: str
     value: str
+
+
+def physics(run: xr.Dataset) -> list[Row]:
+    """What was flown, first of all: loads, attitudes, rates, path, power, stall and stick margins; loads over one revolution."""
+    rows = []
+    weight = float(run.attrs.get("condition.gross_mass", 0.0)) * STANDARD_GRAVITY
+    if weight > 0.0:
+        rows.append(_range("load factor [–]", run, -_smooth(run, run["force_z"].values) / weight, ".2f"))
+    for name in ("roll", "pitch"):
+        rows.append(_range(f"{name} [deg]", run, np.rad2deg(run[name].values), ".1f"))
+    for name, label in (("p", "roll"), ("q", "pitch"), ("r", "yaw")):
+        rows.append(_range(f"{label} rate [deg/s]", run, np.rad2deg(run[name].values), ".1f"))
+    speed = np.sqrt(sum(run[name].values ** 2 for name in "uvw")) / KNOT
+    rows.append(Row("airspeed [kt]", f"{speed[0]:.1f} at the start, {speed[-1]:.1f} at the end"))
+    rows.append(Row("height gained [m]", f"{float(run['down'][0] - run['down'][-1]):+.1f}"))
+    if "power" in run:
+        rows.append(_range("power [kW]", run, _smooth(run, run["power"].values) / 1e3, ".0f"))
+    if "stalled_share" in run:
+        rows.append(_range("disk beyond stall [%]", run, 100.0 * run["stalled_share"].values, ".1f"))
+    if "stick_margin" in run:
+        rows.append(_range("stick from a stop [in]", run, run["stick_margin"].values, ".2f"))
+    return rows
+
+
+def _smooth(run: xr.Dataset, values: np.ndarray) -> np.ndarray:
+    """The mean over one revolution where there is one."""
+    mean = one_revolution_mean(run, values)
+    return values if mean is None else mean
+
+
+def _range(label: str, run: xr.Dataset, values: np.ndarray, form: str) -> Row:
+    """Least and largest value, each with its time."""
+    least, most = int(np.argmin(values)), int(np.argmax(values))
+    low, high = format(values[least], form), format(values[most], form)
+    if low == high:
+        return Row(label, low)
+    return Row(label, f"{low} at {float(run.time[least]):.2f} s to {high} at {float(run.time[most]):.2f} s")
 
 
 def summary(run: xr.Dataset) -> list[Row]:

@@ -8,10 +8,10 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ..arguments import checked
 from ..atomic import written
 from .attributes import flat_attributes
-from .errors import ResultsError
-from .schema import SCHEMA
+from .reading import DIGEST, digest, of_kind, opened, seal
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -76,6 +76,7 @@ def save(dataset: xr.Dataset, path: str | Path) -> Path:
 
     flat = dataset.copy()
     flat.attrs = flat_attributes(dataset.attrs)
+    flat.attrs[DIGEST] = digest(flat)
     encoding = {
         name: {"zlib": True, "complevel": 4, "shuffle": True}
         for name, variable in flat.variables.items()
@@ -87,29 +88,18 @@ def save(dataset: xr.Dataset, path: str | Path) -> Path:
             flat.dump_to_store(H5NetCDFStore(file, mode="w"), encoding=encoding)
         if kept.failure is not None:
             raise kept.failure
+        seal(stream)
     return Path(path)
 
 
-def load(path: str | Path) -> xr.Dataset:
+@checked
+def load(path: str | Path, kind: str | None = None) -> xr.Dataset:
     """Read a run or a trim back into memory; the file is closed. Nothing in it is executed.
 
-    Files of older schemas are read as they are; those of a newer one are refused.
+    kind: what it must be, a key of `reading.KINDS`. Refused is what is damaged, changed or no such result. Files of older
+    schemas are read as they are; those of a newer one are refused.
     """
-    import xarray as xr
-
-    path = Path(path)
-    if not path.is_file():
-        raise ResultsError(f"{path}: no such file")
-    try:
-        data = xr.load_dataset(path, engine="h5netcdf")
-    except OSError as error:
-        raise ResultsError(f"{path}: not a NetCDF-4 file ({error})") from error
-    schema = data.attrs.get("schema", 1)
-    if schema not in range(1, SCHEMA + 1):
-        raise ResultsError(
-            f"{path}: schema = {schema!s:.20}: this program reads 1 to {SCHEMA}; a newer one wrote the file"
-        )
-    return data
+    return of_kind(opened(Path(path)), Path(path), kind)
 
 
 def finished(path: Path) -> bool:

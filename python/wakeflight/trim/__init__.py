@@ -16,7 +16,6 @@ from ..progress import Reported, heard, reporting
 from ..units import number, whole
 from .aircraft import AircraftOnWake, on_marching, on_relaxation
 from .equations import INCH, dynamic_map, without_inflow
-from .limits import windmill
 from .on_wake import Solution
 from .results import Trim
 from .solve import solve_condition
@@ -81,9 +80,6 @@ def trim(
     condition = simple.condition
     progress.advance(1, "dynamic inflow")
     if chosen.is_dynamic:
-        none = windmill(simple, problem, x)
-        if none is not None:
-            raise NumericalFailure(none)
         return told(Solution(simple, problem, x, *dynamic_map(simple, problem, x)))
 
     model = Model.build(aircraft, condition, trim_model(chosen), asked, n_harmonics)

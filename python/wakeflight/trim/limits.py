@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 
 from .. import _core
-from ..limits import in_vortex_ring, momentum_inflows, stall_along_span, stalled, sticks_beyond
+from ..limits import in_vortex_ring, stall_along_span, stalled, sticks_beyond
 from ..model import Model
 from ..monitors.rotor import SLOW, STALLED_SHARE
 from .equations import INCH
@@ -38,26 +38,13 @@ def limiting(
     hub, _ = model.core.hub(model.core.trim_state(problem, x, 0.0)[0])
     hover = np.sqrt(0.5 * abs(rotor["ct"])) * model.tip_speed
     if in_vortex_ring(-hub[2], np.hypot(hub[0], hub[1]), hover):
-        answer = "momentum inflow has no answer" if model.inflow.is_dynamic else "the wake stays in the disk"
+        answer = (
+            "dynamic inflow is a mean of scattered tests" if model.inflow.is_dynamic else "the wake stays in the disk"
+        )
         texts.append(
             f"axial flow in the vortex-ring range (descent at {-hub[2] / hover:.2f} of the induced velocity of hover): {answer}"
         )
     return texts
-
-
-def windmill(model: Model, problem: _core.TrimProblem, x: np.ndarray) -> str | None:
-    """Why a trim with dynamic inflow is none: in a descent where a windmill's wake has an answer of momentum theory too, the
-    inflow of flight follows that of powered flight, whose stream no longer exists.
-    """
-    ct = over_the_disk(model, problem, x, None)["ct"]
-    hub = np.asarray(model.core.hub(model.core.trim_state(problem, x, 0.0)[0])[0]) / model.tip_speed
-    if len(momentum_inflows(ct, float(np.hypot(hub[0], hub[1])), float(hub[2]))) == 1:
-        return None
-    ratio = -hub[2] / np.sqrt(0.5 * ct)
-    return (
-        f"no trim found: axial flow of the windmill brake state (descent at {ratio:.2f} of the induced velocity of hover): "
-        "momentum inflow has several answers there, and the one that flight leads to is not a windmill's; a free wake has one"
-    )
 
 
 def over_the_disk(

@@ -6,7 +6,6 @@ from __future__ import annotations
 import numpy as np
 
 from .. import _core
-from ..limits import momentum_inflows
 from ..model import PITCH, ROLL, YAW, Model
 from ..units import STANDARD_GRAVITY
 from .equations import INCH
@@ -32,7 +31,7 @@ def first_guess(model: Model, problem: _core.TrimProblem) -> np.ndarray:
     thrust = c.gross_mass * STANDARD_GRAVITY * np.hypot(1.0, lateral)
     ct = thrust / (model.density * np.pi * rotor["radius"] ** 2 * model.tip_speed**2)
     mu, climb = flat / model.tip_speed, c.speed * np.sin(c.flight_path) / model.tip_speed
-    lambda_0 = momentum_inflows(ct, mu, climb)[-1]
+    lambda_0 = _core.descent_inflow(ct, mu**2, -climb)
     drag = 0.04 * (c.speed / 41.0) ** 2
     through = lambda_0 + climb + c.speed / model.tip_speed * drag
     pitch_75 = (2 * ct / (LIFT_SLOPE * model.aircraft.solidity) + 0.5 * through) / (1 / 3 + mu**2 / 2)
@@ -73,11 +72,11 @@ def first_guess(model: Model, problem: _core.TrimProblem) -> np.ndarray:
 def tail_inflow(model: Model, power: float, to_the_right: float) -> float:
     """Induced inflow of the tail rotor that holds the torque of `power` [W], flying `to_the_right` [m/s].
 
-    The least answer of momentum theory: that of a windmill where the tail moves into its own wake so fast that there is one.
+    Where the tail moves into its own wake, by the curve of tests; beyond it is a windmill.
     """
     tail = model.data["tail_rotor"]
     tip_speed = tail["omega"] * tail["radius"]
     force = max(power, 0.0) / model.omega / abs(tail["position"][0])
     ct = force / (model.density * np.pi * tail["radius"] ** 2 * tip_speed**2)
     forward = model.condition.speed * np.cos(model.condition.flight_path) / tip_speed
-    return momentum_inflows(max(ct, 1e-4), min(forward, 0.3), to_the_right / tip_speed)[0]
+    return _core.descent_inflow(max(ct, 1e-4), min(forward, 0.3) ** 2, -to_the_right / tip_speed)

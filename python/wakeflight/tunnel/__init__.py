@@ -223,15 +223,14 @@ def _compiled(
     rotor: Rotor, condition: StandCondition, model: StandInflow, n_harmonics: int, blade_model: str
 ) -> tuple[StandModel, StandModel | None]:
     """The rotor with dynamic inflow, and with the free wake where that is asked for."""
-    windmill = model.is_dynamic
-    dynamic = model if windmill else DynamicInflow(n_stations=model.n_stations, azimuth_step=None)
+    dynamic = model if model.is_dynamic else DynamicInflow(n_stations=model.n_stations, azimuth_step=None)
     try:
-        simple = StandModel.build(rotor, condition, dynamic, n_harmonics, windmill=windmill)
+        simple = StandModel.build(rotor, condition, dynamic, n_harmonics)
         if rotor.flexible and not rotor.fixed_reference_pitch:
             # modes at the pitch the blade will have, where the file does not say
             guess = first_guess(simple, trim_problem(simple, None))[0]
             rotor = rotor.with_reference_pitch(guess)
-            simple = StandModel.build(rotor, condition, dynamic, n_harmonics, windmill=windmill)
-        return simple, None if windmill else StandModel.build(rotor, condition, model, n_harmonics, blade_model)
+            simple = StandModel.build(rotor, condition, dynamic, n_harmonics)
+        return simple, None if model.is_dynamic else StandModel.build(rotor, condition, model, n_harmonics, blade_model)
     except InputError as reason:
         raise reason.within(rotor.path) from reason

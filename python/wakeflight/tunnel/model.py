@@ -45,9 +45,6 @@ class StandModel(CompiledRotor):
     n_harmonics: int
     blade_model: str = "lifting-line"
     """As the core reads it: lifting-line, second-order, weissinger, weissinger-incompressible."""
-    windmill: bool = False
-    """Whether dynamic inflow takes the windmill brake state in descent: a result does, the start of a wake does not, since it
-    must exist at any collective."""
     rotor_speed: Corners = ()
     """Time [s] and share of the nominal rotor speed; none at constant speed."""
     n_controls: ClassVar[int] = 3
@@ -60,7 +57,6 @@ class StandModel(CompiledRotor):
         inflow: StandInflow,
         n_harmonics: int,
         blade_model: str = "lifting-line",
-        windmill: bool = False,
     ) -> StandModel:
         """Compile; the tip loss of the file acts with dynamic inflow alone. Gravity acts down the shaft.
 
@@ -70,11 +66,10 @@ class StandModel(CompiledRotor):
         inflow.step(rotor)
         air = (condition.density, condition.speed_of_sound)
         resolved = resolution(rotor.discretisation, inflow.n_stations)
-        mass_flow = "windmill_brake" if windmill else "momentum"
-        chosen = setting(air, not inflow.is_dynamic, resolved, lift=LIFT[blade_model], mass_flow=mass_flow)
+        chosen = setting(air, not inflow.is_dynamic, resolved, lift=LIFT[blade_model])
         motion = (list(condition.velocity), list(condition.rates))
         core = _core.System.stand(json.dumps(rotor.data), chosen, motion, list(condition.higher))
-        return cls(rotor, condition, inflow, core, n_harmonics, blade_model, windmill)
+        return cls(rotor, condition, inflow, core, n_harmonics, blade_model)
 
     @property
     def question(self) -> Question:

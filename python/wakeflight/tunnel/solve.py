@@ -72,14 +72,14 @@ def first_guess(model: StandModel, problem: _core.TrimProblem) -> np.ndarray:
     gain = 0.5 * sigma * slope
     if "thrust" in wanted:
         ct = wanted["thrust"] / model.dynamic_pressure_area
-        lam = momentum_inflow(ct, mu, mu_z, model.windmill)
+        lam = _core.descent_inflow(ct, mu * mu, mu_z)
         theta_75 = (ct / gain + 0.5 * (lam - mu_z)) / (1 / 3 + mu**2 / 2)
     else:
         theta_75 = wanted["collective"] + twist if "collective" in wanted else np.radians(4.0)
         lam = 0.0
         for _ in range(200):
             ct = gain * (theta_75 * (1 / 3 + mu**2 / 2) - 0.5 * (lam - mu_z))
-            lam = 0.8 * lam + 0.2 * momentum_inflow(ct, mu, mu_z, model.windmill)
+            lam = 0.8 * lam + 0.2 * _core.descent_inflow(ct, mu * mu, mu_z)
     x[0] = wanted.get("collective", theta_75 - twist)
     tilt = -mu * (8 / 3 * theta_75 - 2 * (lam - mu_z)) / (1 - mu**2 / 2)
     found = "longitudinal_cyclic" not in wanted
@@ -91,11 +91,6 @@ def first_guess(model: StandModel, problem: _core.TrimProblem) -> np.ndarray:
     if len(modes) > 1 and per_coordinate != 0.0:
         x[modes[model.rotor["flap_mode"]]] = np.sign(ct) * np.radians(3.0) / per_coordinate
     return x
-
-
-def momentum_inflow(ct: float, mu: float, mu_z: float, least: bool = False) -> float:
-    """Root of lambda_0 = C_T/(2 sqrt(mu^2 + (lambda_0 - mu_z)^2)) that dynamic inflow takes: continued from hover, or least."""
-    return _core.momentum_inflow(ct, mu * mu, mu_z, least)
 
 
 def hybrid(model: StandModel, problem: _core.TrimProblem, x0: np.ndarray) -> np.ndarray:
@@ -132,13 +127,9 @@ class StandOnWake(TrimOnWake):
     def none_found(self, problem: _core.TrimProblem, x: np.ndarray, inflow_map: np.ndarray | None) -> str:
         """Where the search stopped."""
         theta = ", ".join(f"{np.degrees(v):.2f}" for v in x[:3])
-        model, condition = self.model, self.model.condition
-        mu, mu_z = condition.mu(model.tip_speed), condition.mu_z(model.tip_speed)
-        branches = model.windmill and mu_z > 0.0 and mu_z > np.sqrt(8.0) * mu
-        why = "; momentum theory has no steady answer where the windmill brake state begins" if branches else ""
         return (
-            f"no steady motion of the rotor found: {unmet(model, problem, x)}; "
-            f"stopped at theta_0, theta_1c, theta_1s = {theta} deg{why}"
+            f"no steady motion of the rotor found: {unmet(self.model, problem, x)}; "
+            f"stopped at theta_0, theta_1c, theta_1s = {theta} deg"
         )
 
     def moved(self, problem: _core.TrimProblem, before: np.ndarray, after: np.ndarray) -> np.ndarray:

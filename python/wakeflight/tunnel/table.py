@@ -12,6 +12,9 @@ from ..views import text_table
 from .dataset import scatter
 from .solved import Solved
 
+HOVERING = 1e-3
+"""Advance ratio up to which the power of hover is what power is held against."""
+
 
 def table(stand: Solved, assumed: Sequence[str], said: Sequence[tuple[str, str]]) -> str:
     """The result as a table to print; `said`: what monitors, notes and warnings say."""
@@ -31,7 +34,12 @@ def table(stand: Solved, assumed: Sequence[str], said: Sequence[tuple[str, str]]
         *(("assumed", text) for text in assumed),
         ("theta_0, 1c, 1s", f"{deg(stand.theta_0):.3f}, {deg(stand.theta_1c):.3f}, {deg(stand.theta_1s):.3f} deg"),
         ("C_T, C_T/sigma", f"{stand.ct:.6f}, {stand.ct / sigma:.4f}{scattered}"),
-        ("C_Q, figure of merit", f"{stand.cq:.7f}, {stand.figure_of_merit:.4f}"),
+        # ideal power is that of hover: across a wind the ratio means nothing
+        *(
+            [("C_Q, figure of merit", f"{stand.cq:.7f}, {stand.figure_of_merit:.4f}")]
+            if c.mu(m.tip_speed) < HOVERING
+            else [("C_Q", f"{stand.cq:.7f}")]
+        ),
         ("thrust, torque", f"{stand.thrust:.5g} N, {stand.torque:.5g} N m"),
         ("power", f"{stand.power / 1e3:.4g} kW ({stand.power / HORSEPOWER:.1f} hp)"),
         ("H force, side force", f"{stand.aero_force[0]:.4g} N aft, {stand.aero_force[1]:.4g} N right"),

@@ -2,6 +2,7 @@
 //!
 //! lambda(r, psi) = lambda_0 + lambda_s r sin psi + lambda_c r cos psi, r = 1 at the tip, psi = 0 aft, down positive.
 
+use super::descent::{DescentFlow, descent_inflow};
 use crate::numerics::scalar::Real;
 use serde::Deserialize;
 use std::f64::consts::PI;
@@ -20,11 +21,8 @@ pub enum ApparentMass {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum MassFlow {
-    /// The value of momentum theory at the thrust of the moment.
+    /// The value of momentum theory at the thrust of the moment, in descent that of tests (`descent`).
     Momentum,
-    /// The least of the values of momentum theory: in descent that of the windmill brake state where there is one. It jumps
-    /// where that state begins, and no steady answer may exist about there.
-    WindmillBrake,
     /// The state lambda_0 itself.
     State,
 }
@@ -75,25 +73,37 @@ impl PittPeters {
     /// (1/Omega) M lambda_dot + V L^-1 lambda = (CT, -CL, -CM) in wind axes [pitt1981], V = diag(V_T, V_m, V_m),
     /// V_T = sqrt(mu^2 + lambda^2), V_m = (mu^2 + lambda (lambda + lambda_0))/V_T,
     /// L = [[1/2, 0, -k X], [0, 2(1 + X^2), 0], [k X, 0, 2(1 - X^2)]], k = 15 pi/64, X = tan(chi/2),
-    /// lambda = lambda_0 - mu_z, lambda_0 of `mass_flow`.
+    /// lambda = lambda_0 - mu_z, lambda_0 of `mass_flow`; V_m = d(lambda_0 V_T)/d lambda_0. In descent V_T is the flow of tests
+    /// (`descent`), and V_m follows.
     ///
     /// The rotation to wind axes and back is carried out in closed form: only the vector X (cos beta_w, sin beta_w)
     /// = (mu_x, -mu_y)/(V_T + |lambda|) remains, so nothing is singular or frozen at mu = 0. The wind's turning rate
     /// does not enter because the apparent mass of the two cyclic states is equal.
     /// DEVIATION: the skew angle is arctan(mu/|lambda|); with the sign of lambda it would jump where the total inflow
     /// changes sign in descent.
-    /// Not modelled: wake distortion by rates; the vortex ring state (V_m may turn negative there).
+    /// Not modelled: wake distortion by rates.
     pub fn inflow_dot<S: Real>(&self, inflow: [S; 3], disk: DiskCondition<S>, omega: f64) -> [S; 3] {
         let [lambda_0, lambda_s, lambda_c] = inflow;
         let mu_squared = disk.mu_x.squared() + disk.mu_y.squared();
-        let mean = match self.mass_flow {
-            MassFlow::Momentum => momentum_inflow(disk.ct, mu_squared, disk.mu_z),
-            MassFlow::WindmillBrake => least_momentum_inflow(disk.ct, mu_squared, disk.mu_z),
-            MassFlow::State => lambda_0,
+        let (mean, excess) = match self.mass_flow {
+            MassFlow::Momentum => {
+                let mean = descent_inflow(disk.ct, mu_squared, disk.mu_z);
+                (mean, DescentFlow::at(disk.ct, mu_squared, disk.mu_z, mean))
+            }
+            MassFlow::State => (lambda_0, None),
         };
         let total = mean - disk.mu_z;
-        let v_t = (mu_squared + total.squared() + TINY).sqrt();
-        let v_m = (mu_squared + total * (total + mean)) / v_t;
+        let (v_t, v_m) = match excess {
+            None => {
+                let v_t = (mu_squared + total.squared() + TINY).sqrt();
+                (v_t, (mu_squared + total * (total + mean)) / v_t)
+            }
+            Some(excess) => {
+                let squared = mu_squared + total.squared() + excess.squared;
+                let v_t = squared.sqrt();
+                (v_t, (squared + mean * (total + excess.half_slope)) / v_t)
+            }
+        };
 
         let skew = S::one() / (v_t + total.abs());
         let (x_c, x_s) = (disk.mu_x * skew, -disk.mu_y * skew);
@@ -120,103 +130,14 @@ impl PittPeters {
     }
 }
 
-/// Mean induced inflow of momentum theory, lambda_0 = CT/(2 sqrt(mu^2 + (lambda_0 - mu_z)^2)), down positive.
-///
-/// Solved to rounding on values by Newton kept inside a bracket, then one Newton step in `S`, which makes the
-/// derivatives exact. In steep descent, where several roots exist, the search starts from the side of the largest.
-pub fn momentum_inflow<S: Real>(ct: S, mu_squared: S, mu_z: S) -> S {
-    polished(momentum_root(ct.re(), mu_squared.re(), mu_z.re(), false), ct, mu_squared, mu_z)
-}
-
-/// The least root of the same equation: axially beyond twice the hover velocity of descent the windmill brake state, whose
-/// slipstream momentum theory knows.
-pub fn least_momentum_inflow<S: Real>(ct: S, mu_squared: S, mu_z: S) -> S {
-    polished(momentum_root(ct.re(), mu_squared.re(), mu_z.re(), true), ct, mu_squared, mu_z)
-}
-
-/// A root with its derivatives.
-fn polished<S: Real>(root: f64, ct: S, mu_squared: S, mu_z: S) -> S {
-    let total = -mu_z + root;
-    let speed = (mu_squared + total.squared() + TINY).sqrt();
-    let residual = speed * (2.0 * root) - ct;
-    let slope = slope(root, mu_squared.re(), mu_z.re());
-    // at a fold (or with no thrust and no motion) the derivative does not exist
-    if slope.abs() < 1e-9 { S::cst(root) } else { -residual / slope + root }
-}
-
-fn slope(root: f64, mu_squared: f64, mu_z: f64) -> f64 {
-    let total = root - mu_z;
-    let speed = (mu_squared + total * total + TINY).sqrt();
-    2.0 * speed + 2.0 * root * total / speed
-}
-
-fn momentum_root(ct: f64, mu_squared: f64, mu_z: f64, least: bool) -> f64 {
-    if ct < 0.0 {
-        return -momentum_root(-ct, mu_squared, -mu_z, least);
-    }
-    let residual = |x: f64| 2.0 * x * (mu_squared + (x - mu_z).powi(2) + TINY).sqrt() - ct;
-    let mut low = 0.0;
-    let mut high = mu_z.max(0.0) + (0.5 * ct).sqrt();
-    let folds = mu_z * mu_z - 8.0 * mu_squared;
-    if least && mu_z > 0.0 && folds >= 0.0 {
-        // where the residual first turns down: a root below it is the least
-        let crest = 0.25 * (3.0 * mu_z - folds.sqrt());
-        if residual(crest) >= 0.0 {
-            high = crest;
-        }
-    }
-    let mut x = high;
-    for _ in 0..100 {
-        let r = residual(x);
-        if r > 0.0 {
-            high = x;
-        } else {
-            low = x;
-        }
-        let newton = x - r / slope(x, mu_squared, mu_z);
-        // bisection wherever Newton leaves the bracket (or is not a number)
-        let next = if newton >= low && newton <= high { newton } else { 0.5 * (low + high) };
-        if (next - x).abs() <= 1e-16 + 4.0 * f64::EPSILON * x.abs() {
-            return next;
-        }
-        x = next;
-    }
-    x
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::momentum::momentum_inflow;
     use super::*;
     use crate::numerics::scalar::Dual;
 
     fn condition(ct: f64, mu_x: f64, mu_y: f64, mu_z: f64) -> DiskCondition<f64> {
         DiskCondition { ct, cl: 0.0, cm: 0.0, mu_x, mu_y, mu_z }
-    }
-
-    #[test]
-    fn momentum_inflow_solves_its_equation_everywhere() {
-        for ct in [-0.004, 1e-6, 0.003, 0.0066, 0.012] {
-            for mu in [0.0, 0.01, 0.05, 0.185, 0.4] {
-                for mu_z in [-0.1, -0.01, 0.0, 0.03, 0.06, 0.12, 0.3] {
-                    let x: f64 = momentum_inflow(ct, mu * mu, mu_z);
-                    let residual = 2.0 * x * (mu * mu + (x - mu_z).powi(2)).sqrt() - ct;
-                    assert!(residual.abs() < 1e-12, "{ct} {mu} {mu_z}: {residual}");
-                }
-            }
-        }
-        assert!((momentum_inflow(0.005, 0.0, 0.0) - 0.05_f64).abs() < 1e-12);
-        // windmill brake state: v_i = V_d/2 - sqrt(V_d^2/4 - v_h^2); slower descent and a fast wind have one root
-        for rate in [2.01, 2.5, 4.0] {
-            let exact = 0.05 * (0.5 * rate - (0.25_f64 * rate * rate - 1.0).sqrt());
-            let found: f64 = least_momentum_inflow(0.005, 0.0, 0.05 * rate);
-            assert!((found - exact).abs() < 1e-12, "{rate}: {found} {exact}");
-        }
-        for (mu, mu_z) in [(0.0, 0.09), (0.0, -0.1), (0.185, 0.3)] {
-            let root: f64 = momentum_inflow(0.005, mu * mu, mu_z);
-            let least: f64 = least_momentum_inflow(0.005, mu * mu, mu_z);
-            assert_eq!(root, least);
-        }
-        assert_eq!(momentum_inflow(0.0, 0.0, 0.0), 0.0);
     }
 
     #[test]

@@ -7,8 +7,8 @@ use super::model::System;
 use crate::numerics::scalar::{Dual, Real};
 use thiserror::Error;
 
-/// Directions carried at once.
-const LANES: usize = 16;
+/// Directions carried at once: few, because the compiler unrolls all of F for each of them.
+const LANES: usize = 4;
 type D = Dual<LANES>;
 
 /// dF/du, row-major, a column for every number of what acts.

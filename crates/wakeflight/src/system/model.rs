@@ -10,7 +10,7 @@ use crate::blade::aerodynamics::Air;
 use crate::blade::error::BladeError;
 use crate::blade::model::Discretisation;
 use crate::blade::thin_section::{SectionLift, ThinSection};
-use crate::inflow::pitt_peters::{MassFlow, PittPeters};
+use crate::inflow::pitt_peters::PittPeters;
 use crate::rotor::data::RotorData;
 use crate::rotor::hub::Rotor;
 use crate::rotor::swashplate::Rigging;
@@ -64,8 +64,6 @@ pub struct Setting {
     pub discretisation: Discretisation,
     /// Law of thin sections, whose circulation is that of the wind at three quarters of the chord; none on a lifting line.
     pub lift: Option<SectionLift>,
-    /// Flow of mass through the disk that dynamic inflow takes.
-    pub mass_flow: MassFlow,
 }
 
 impl System {
@@ -106,8 +104,7 @@ impl System {
         let tails = closed.iter().map(|_| "tail".to_string()).collect();
         let layout = Layout::new(carrier.airframe().is_some(), states, tails);
         let (air, gravity) = (setting.air, setting.gravity);
-        let pitt_peters = PittPeters { mass_flow: setting.mass_flow, ..PittPeters::default() };
-        Self { carrier, rotors, closed, pitt_peters, air, gravity, layout }
+        Self { carrier, rotors, closed, pitt_peters: PittPeters::default(), air, gravity, layout }
     }
 
     /// The first rotor with blades: the main rotor of a helicopter.

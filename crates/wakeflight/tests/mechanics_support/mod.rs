@@ -19,7 +19,6 @@ use wakeflight::blade::model::{Blade, Discretisation};
 use wakeflight::blade::section::BladeProperties;
 use wakeflight::blade::stations::StructuralPoint;
 use wakeflight::blade::strain::add_strain_gradient;
-use wakeflight::inflow::pitt_peters::MassFlow;
 use wakeflight::numerics::frames::Vec3;
 use wakeflight::numerics::scalar::{Dual, Real};
 use wakeflight::numerics::tables::Grid;
@@ -211,8 +210,7 @@ pub fn aircraft_data(blade: BladeProperties, airfoil: Airfoil) -> AircraftData {
 }
 
 pub fn setting(free_wake: bool, gravity: f64) -> Setting {
-    let (lift, mass_flow) = (None, MassFlow::Momentum);
-    Setting { air: AIR, gravity, free_wake, discretisation: discretisation(5, 8), lift, mass_flow }
+    Setting { air: AIR, gravity, free_wake, discretisation: discretisation(5, 8), lift: None }
 }
 
 pub fn build(data: &AircraftData, free_wake: bool, gravity: f64) -> System {

@@ -26,12 +26,12 @@ def reproduce(
     """
     from ...aircraft import load_aircraft
     from . import studies
-    from .cases import base_cases, question_cases
+    from .cases import base_cases, question_cases, reading_cases
     from .page import write
     from .runs import attempt, fly_all, load_all
 
     out_dir = Path(out_dir)
-    cases = [*base_cases(), *question_cases()]
+    cases = [*base_cases(), *question_cases(), *reading_cases()]
     folder = out_dir / "flights"
     runs = load_all(cases, folder) if redraw else fly_all(cases, folder, workers, progress)
     found, missed = [], []

@@ -27,6 +27,16 @@ MODELS: dict[str, InflowModel] = {
 }
 """The paper's three, in the order of its legends; every option is the default."""
 
+STANDARD: dict[str, InflowModel] = {
+    "dynamic": DynamicInflow(),
+    "relaxation": RelaxationWake.preset("standard"),
+    "time-marching": TimeMarchingWake.preset("standard"),
+}
+"""The same with the standard wake of this program; dynamic inflow has no wake."""
+
+AUGMENTED = "roll-reversal-augmented"
+"""The second reading of the roll reversal: the same stick, the aircraft's stability augmented."""
+
 CAPS = (5, 10, 20)
 """Most iterations of the relaxation wake in a revolution; the flights of the figures use the default."""
 UNTIL_CONVERGED = 400
@@ -118,6 +128,23 @@ def question_cases() -> list[Planned]:
                     )
                 )
     return cases
+
+
+def reading_cases() -> list[Planned]:
+    """The roll reversal in its second reading, and both readings with the standard wake."""
+    wanted = {AUGMENTED: (AUGMENTED, MODELS)}
+    for reading in ("roll-reversal", AUGMENTED):
+        wanted[f"{reading}-standard"] = (
+            reading,
+            {name: model for name, model in STANDARD.items() if name != "dynamic"},
+        )
+    return [
+        Planned(
+            f"{folder}/{name}", maneuver, model, 36 * (1 if name == "dynamic" else 6 if "standard" in folder else 2)
+        )
+        for folder, (maneuver, models) in wanted.items()
+        for name, model in models.items()
+    ]
 
 
 def cap_name(maneuver: str, cap: int) -> str:

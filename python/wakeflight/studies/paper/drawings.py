@@ -22,8 +22,7 @@ if TYPE_CHECKING:
 WAKES = ("relaxation", "time-marching")
 # the colours the models have in histories of all three
 LOOKS = {
-    model: {"color": color, "linestyle": line}
-    for model, color, line in zip(("dynamic", *WAKES), style.COLORS, style.LINES, strict=False)
+    model: {"color": color, "linestyle": line} for model, (color, line) in style.looks(("dynamic", *WAKES)).items()
 }
 
 

@@ -12,9 +12,10 @@ from typing import TYPE_CHECKING
 from ...atomic import write_text
 from ...export import vtk
 from ...plotting.style import save
+from ...report import viewer
 from ...report.summary import configuration, counters, summary, warnings
-from . import cost, extras, viewer
-from .cases import MANEUVERS, MODELS
+from . import cost, extras, readings
+from .cases import AUGMENTED, MANEUVERS, MODELS
 from .figures import FIGURES
 from .statements import VERDICTS, counts, judge
 
@@ -48,20 +49,22 @@ def write(
     runs: flights by case name. rotor: shaft_tilt [rad], hinge_offset, root_cutout and chord over R. findings, missed: of
     the studies, and of those that could not be finished.
     """
-    from jinja2 import Environment, PackageLoader, StrictUndefined
+    from jinja2 import ChoiceLoader, Environment, PackageLoader, StrictUndefined
 
-    flights = {maneuver: {model: runs[f"{maneuver}/{model}"] for model in MODELS} for maneuver in MANEUVERS}
-    table = judge(runs)
+    shown = (*MANEUVERS, AUGMENTED)
+    flights = {maneuver: {model: runs[f"{maneuver}/{model}"] for model in MODELS} for maneuver in shown}
+    table, both = judge(runs), readings.judged(runs)
     figures = [_draw(f.name, f.caption, lambda f=f: f.draw(flights[f.maneuver]), out_dir) for f in FIGURES]
     figures.insert(0, _draw("figure-02", extras.SEQUENCE_CAPTION, lambda: extras.sequence(runs), out_dir))
     beyond = {
         "convergence": _draw("convergence", extras.CONVERGENCE_CAPTION, lambda: extras.convergence(runs), out_dir),
         "inflow-mean": _draw("inflow-mean", extras.INFLOW_CAPTION, lambda: extras.inflow(runs), out_dir),
         "caps": _draw("relaxation-caps", extras.CAPS_CAPTION, lambda: extras.caps(runs), out_dir),
+        "readings": _draw("readings", readings.CAPTION, lambda: readings.figure(runs), out_dir),
     }
     export(flights, out_dir / "paraview")
     environment = Environment(
-        loader=PackageLoader("wakeflight.studies.paper", "templates"),
+        loader=ChoiceLoader([PackageLoader(f"wakeflight.{each}", "templates") for each in ("studies.paper", "report")]),
         autoescape=True,
         undefined=StrictUndefined,
         trim_blocks=True,
@@ -73,10 +76,13 @@ def write(
         statements=table,
         verdicts=VERDICTS,
         counts=counts(table),
+        readings=both,
+        readings_head=readings.HEAD,
+        readings_counts=[*readings.counted(both), *readings.motion(runs)],
         figures=figures,
         beyond=beyond,
-        summaries={m: _side_by_side(summary, flights[m]) for m in MANEUVERS},
-        work={m: _side_by_side(counters, flights[m]) for m in MANEUVERS},
+        summaries={m: _side_by_side(summary, flights[m]) for m in shown},
+        work={m: _side_by_side(counters, flights[m]) for m in shown},
         warnings=sorted({text for run in runs.values() for text in warnings(run)}),
         models=list(MODELS),
         cost_head=cost.HEAD,
@@ -86,6 +92,7 @@ def write(
         studies=[(f, _draw(f"study-{f.name}", f.done, lambda f=f: f.figure, out_dir)) for f in findings],
         missed=list(missed),
         configurations={name: configuration(run) for name, run in runs.items()},
+        panels=len(MODELS),
         wake_data=viewer.data(flights, rotor).replace("</", "<\\/"),
         wake_script=viewer.script(),
     )

@@ -1,4 +1,4 @@
-// Three inflow models side by side in three dimensions, in step. Plain canvas: no library, no graphics card needed.
+// Inflow models side by side in three dimensions, in step. Plain canvas: no library, no graphics card needed.
 // Lengths over R. Hub axes and earth axes are drawn alike: x aft, y right, z up.
 "use strict";
 (function () {
@@ -19,7 +19,7 @@
       for (const key of ["attitude", "path", "blades", "inflowMean", "disk"]) if (model[key]) model[key] = floats(model[key]);
       for (const key of ["wake", "strength"]) if (model[key]) model[key] = shorts(model[key]);
     }
-    part("maneuver").add(new Option(name.replace("-", " "), name));
+    part("maneuver").add(new Option(name.replaceAll("-", " "), name));
   }
   const state = { maneuver: names[0], frame: 0, yaw: -0.9, up: 0.42, zoom: 1, playing: false, last: 0 };
   const panels = data.maneuvers[names[0]].models.map((_, k) => part("panels").querySelectorAll("canvas")[k]);
@@ -83,14 +83,14 @@
     }
   }
   function bladeShapes(model, f, place, shapes) {
-    const { hinge_offset: e, root_cutout: cut, chord } = data.rotor;
+    const { hinge_offset: e, root_cutout: cut, chord, rotation: turn = 1 } = data.rotor;
     for (let b = 0; b < model.nBlades; b++) {
       const [psi, flap, lead] = model.blades.subarray(3 * (f * model.nBlades + b), 3 * (f * model.nBlades + b) + 3);
       const [er, et] = [[Math.cos(psi), Math.sin(psi)], [-Math.sin(psi), Math.cos(psi)]];
       const at = (r, along) => {
         const l = Math.max(r - e, 0), c = l * Math.cos(flap);
         const radial = Math.min(r, e) + c * Math.cos(lead), side = c * Math.sin(lead) + along;
-        return place([radial * er[0] + side * et[0], radial * er[1] + side * et[1], l * Math.sin(flap)]);
+        return place([radial * er[0] + side * et[0], turn * (radial * er[1] + side * et[1]), l * Math.sin(flap)]);
       };
       const corners = [at(cut, 0.25 * chord), at(1, 0.25 * chord), at(1, -0.75 * chord), at(cut, -0.75 * chord)];
       const depth = corners.reduce((sum, c) => sum + c[2], 0) / 4 + 0.01;
@@ -177,20 +177,20 @@
     const by = part("colour").value, pen = part("scale").getContext("2d"), { width, height } = part("scale");
     pen.clearRect(0, 0, width, height);
     const fixed = (v) => v.toFixed(1).replace("-", "−"), [low, high] = current().circulation, [l0, l1] = current().inflow;
-    const turns = current().models.find((m) => m.wake).turns;
+    const wake = current().models.find((m) => m.wake), turns = wake ? wake.turns : 0;
     const bar = (x, w, from, to, title) => {
       for (let k = 0; k < w; k++) { pen.fillStyle = colour(k / w); pen.fillRect(x + k, 18, 1, 12); }
       pen.fillStyle = "#222"; pen.font = "12px system-ui, sans-serif";
       pen.textAlign = "left"; pen.fillText(title, x, 12); pen.fillText(from, x, 44);
       pen.textAlign = "right"; pen.fillText(to, x + w, 44); pen.textAlign = "left";
     };
-    if (by === "circulation") bar(10, 240, fixed(low), fixed(high), "wake: circulation Γ [m²/s]");
-    if (by === "age") bar(10, 240, "0", turns.toFixed(0), "wake: age [revolutions]");
-    if (by === "blade") BLADE.forEach((c, k) => {
+    if (wake && by === "circulation") bar(10, 240, fixed(low), fixed(high), "wake: circulation Γ [m²/s]");
+    if (wake && by === "age") bar(10, 240, "0", turns.toFixed(0), "wake: age [revolutions]");
+    if (wake && by === "blade") BLADE.forEach((c, k) => {
       pen.fillStyle = c; pen.fillRect(10 + 62 * k, 20, 14, 10); pen.fillStyle = "#222"; pen.font = "12px system-ui, sans-serif";
       pen.fillText("blade " + (k + 1), 28 + 62 * k, 30);
     });
-    if (current().models.some((m) => m.disk)) bar(300, 240, l0.toFixed(3).replace("-", "−"), l1.toFixed(3), "dynamic inflow: λ [–], positive down");
+    if (current().models.some((m) => m.disk)) bar(wake ? 300 : 10, 240, l0.toFixed(3).replace("-", "−"), l1.toFixed(3), "dynamic inflow: λ [–], positive down");
   }
   function draw() {
     const maneuver = current(), t = maneuver.time[state.frame];

@@ -16,7 +16,8 @@ from typing import TYPE_CHECKING, Any
 import matplotlib
 import numpy as np
 
-from ...results.disk import area_weights, element_widths
+from ..results import frames
+from ..results.disk import area_weights, element_widths
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -26,22 +27,39 @@ LABELS = {"dynamic": "dynamic inflow", "relaxation": "relaxation", "time-marchin
 FULL = 32767
 
 
+NEEDED = ("azimuth", "flap", "lead", "inflow_mean")
+
+
+def viewable(runs: Mapping[str, xr.Dataset]) -> bool:
+    """Whether runs say enough to be looked at in three dimensions: how their blades stand, and common moments."""
+    told = all("geometry" in run.attrs and all(name in run for name in NEEDED) for run in runs.values())
+    return told and _moments(runs).size > 0
+
+
+def rotor(run: xr.Dataset) -> dict[str, float]:
+    """What the view draws of the rotor: shaft_tilt [rad], rotation, hinge_offset, root_cutout and chord over R."""
+    shape, radius = frames.geometry(run), float(run.attrs["radius"])
+    lengths = {name: shape[name] / radius for name in ("hinge_offset", "root_cutout", "chord")}
+    return {"shaft_tilt": shape["shaft_tilt"][0], "rotation": shape["rotation"], **lengths}
+
+
 def script() -> str:
     """The program of the view, to stand in the page."""
     return (resources.files(__package__) / "templates" / "viewer.js").read_text(encoding="utf-8")
 
 
 def data(runs: Mapping[str, Mapping[str, xr.Dataset]], rotor: Mapping[str, float]) -> str:
-    """JSON of every manoeuvre's models; `rotor`: shaft_tilt [rad], hinge_offset, root_cutout and chord over R."""
+    """JSON of every manoeuvre's models; `rotor`: see `rotor`, the sense of rotation may be left out."""
     maneuvers = {}
     for maneuver, models in runs.items():
         moments = _moments(models)
         wakes = [run for run in models.values() if "wake" in run]
-        strength = np.concatenate([run["wake_circulation"].values.ravel() for run in wakes])
+        # without a wake a scale of nothing
+        strength = np.concatenate([run["wake_circulation"].values.ravel() for run in wakes] or [np.zeros(1)])
         maneuvers[maneuver] = {
             "time": _floats(moments),
             "circulation": [float(strength.min()), float(strength.max())],
-            "inflow": _inflow_range(models.get("dynamic")),
+            "inflow": _inflow_range([run for run in models.values() if "wake" not in run]),
             "models": [_model(name, run, moments, float(np.abs(strength).max())) for name, run in models.items()],
         }
     first = next(iter(next(iter(runs.values())).values()))
@@ -52,14 +70,19 @@ def data(runs: Mapping[str, Mapping[str, xr.Dataset]], rotor: Mapping[str, float
         "colours": [matplotlib.colors.to_hex(c) for c in matplotlib.colormaps["plasma"](np.linspace(0.0, 0.92, 64))],
         "maneuvers": maneuvers,
     }
-    return json.dumps(payload, allow_nan=False)
+    # it stands in a page: no text in it ends its element
+    return json.dumps(payload, allow_nan=False).replace("<", "\\u003c")
 
 
 def _moments(models: Mapping[str, xr.Dataset]) -> np.ndarray:
     """Times [s] of the snapshots common to all models with a wake."""
     marks = [np.round(run["snapshot_revolution"].values, 6) for run in models.values() if "snapshot_revolution" in run]
+    first = next(iter(models.values()))
+    omega = float(first.attrs["omega"])
+    if not marks:
+        shortest = min(float(run["time"][-1]) for run in models.values())
+        return np.arange(0.0, shortest + 1e-9, 0.5 * np.pi / omega)
     common = sorted(set(marks[0]).intersection(*marks[1:]))
-    omega = float(next(iter(models.values())).attrs["omega"])
     return np.asarray(common) * 2 * np.pi / omega
 
 
@@ -108,10 +131,10 @@ def disk_inflow(run: xr.Dataset, rows: np.ndarray) -> np.ndarray:
     return np.array(fits)
 
 
-def _inflow_range(run: xr.Dataset | None) -> list[float]:
-    if run is None:
+def _inflow_range(runs: list[xr.Dataset]) -> list[float]:
+    if not runs:
         return [0.0, 1.0]
-    return [float(run["inflow"].min()), float(run["inflow"].max())]
+    return [min(float(run["inflow"].min()) for run in runs), max(float(run["inflow"].max()) for run in runs)]
 
 
 def _floats(values: np.ndarray) -> str:

@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""Linear models: A, B, C, D about a periodic trim, exact derivatives, from the periodic system to a few states."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from ..errors import InputError
+from ..results import flat_attributes
+from ..trim import Trim
+from .build import BLADES, derivatives, periodic
+from .constant import averaged, decomposed, default_harmonics
+from .instants import STICKS, check_inputs, units_of
+from .linearized import METHODS, Linearized
+from .names import INFLOW
+from .statespace import LinearModel
+from .wake import check_wake
+
+__all__ = ["LinearModel", "Linearized", "linearize"]
+
+
+def linearize(
+    start: Trim,
+    inputs: Sequence[str] = STICKS,
+    wake: str | None = None,
+    blades: str = "multiblade",
+    order: int | str | Sequence[str] | None = None,
+    *,
+    method: str = "harmonic-decomposition",
+    harmonics: Sequence[int] | None = None,
+    azimuths: int | None = None,
+) -> LinearModel:
+    """Linear model about a trim: x_dot = A x + B u, y = C x + D u, u and y about trim.
+
+    inputs: sticks [in] and, in straight flight, `stabilator` [rad], `wind_north`, `wind_east`, `wind_down` [m/s]; the track is
+    north. Rates of the sticks are felt: outputs answer a step of a stick at once by a little (D).
+    wake: of a trim with dynamic inflow `dynamic`, its states are states (default), or `frozen`, they stay as trimmed; of one on a
+    free wake `frozen`, the inflow at every station stays as trimmed.
+    blades: `multiblade` coordinates, or `individual` ones.
+    order: None or `full`; otherwise as for `LinearModel.reduce`.
+    method: `harmonic-decomposition`, or `averaging` over azimuth. harmonics: of the state, kept beside its mean; by default those
+    that occur with equal blades up to their number. azimuths: of the revolution at which derivatives are taken, 36 by default.
+
+    The derivatives are those of the trim's own aircraft: how many modes and elements they need is told in docs/linear-models.md.
+    """
+    asked = (inputs,) if isinstance(inputs, str) else tuple(inputs)
+    try:
+        turning = start.turn_rate != 0.0
+    except AttributeError:
+        raise InputError.of("start", type(start).__name__, "must be what wf.trim returned") from None
+    check_inputs(asked, turning)
+    if blades not in BLADES:
+        raise InputError.of("blades", blades, f"allowed: {', '.join(BLADES)}")
+    check_method(method)
+    if isinstance(order, str) and order != "full":
+        raise InputError.of("order", order, "must be a number of states, names of states to keep, or full")
+    wake = check_wake(wake, start.inflow)
+    n = _azimuths(azimuths, start)
+    raw = derivatives(start, asked, n)
+    system = periodic(start, raw, asked, blades, INFLOW if start.inflow.is_dynamic and wake == "frozen" else ())
+    kept = _harmonics(harmonics, raw.where.n_blades, blades, n) if method == METHODS[0] else ()
+    constant = decomposed(system, kept) if kept else averaged(system)
+    attributes = {
+        "aircraft": start.aircraft.name,
+        "condition": start.condition.as_attributes(),
+        "inflow_model": start.inflow.name,
+        "wake": wake,
+        "blades": blades,
+        "method": method if kept else METHODS[1],
+        "harmonics": list(kept),
+        "azimuths": n,
+        "n_modes": start.aircraft.discretisation.n_modes,
+        "n_elements": start.aircraft.discretisation.n_elements,
+    }
+    si = tuple(each for _, _, each in units_of(asked))
+    found = Linearized.from_periodic(constant, system, kept, si, flat_attributes(attributes))
+    return found if order is None or isinstance(order, str) else found.reduce(order)
+
+
+def check_method(method: str) -> None:
+    """Refuse a way from the periodic system to a constant one that there is not."""
+    if method not in METHODS:
+        raise InputError.of("method", method, f"allowed: {', '.join(METHODS)}")
+
+
+def _azimuths(asked: Any, start: Trim) -> int:
+    """Azimuths of the revolution; those of the wake's map where there is one."""
+    if not start.inflow.is_dynamic:
+        n = start.inflow_map.shape[0]
+        if asked not in (None, n):
+            raise InputError.of("azimuths", asked, f"must be those of the wake's inflow, {n}")
+        return n
+    if asked is None:
+        n_blades = start.model.n_blades
+        return n_blades * -(-36 // n_blades)
+    if isinstance(asked, bool) or not isinstance(asked, int) or asked > 720:
+        raise InputError.of("azimuths", asked, "must be a whole number, at most 720")
+    return asked
+
+
+def _harmonics(asked: Sequence[int] | None, n_blades: int, blades: str, n: int) -> tuple[int, ...]:
+    """Harmonics of the state to be kept."""
+    if asked is None:
+        return default_harmonics(n_blades) if blades == "multiblade" else tuple(range(1, n_blades + 1))
+    kept = tuple(asked)
+    for each in kept:
+        if isinstance(each, bool) or not isinstance(each, int) or not 0 < each <= n // 4 or kept.count(each) > 1:
+            raise InputError.of(
+                "harmonics",
+                list(kept),
+                f"must be different whole numbers from 1 to {n // 4}, a quarter of the azimuths",
+            )
+    return tuple(sorted(kept))

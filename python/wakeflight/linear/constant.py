@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""From a periodic system to a constant one: averaging, and harmonic decomposition [johnson1980].
+
+Harmonic decomposition writes z = z_0 + sum over n of (z_nc cos n psi + z_ns sin n psi) with amplitudes that move in time, and
+orders A z by harmonics: with complex amplitudes z_n' = sum over m of A_(n-m) z_m - i n omega z_n + B_n u, y_0 = sum over m of
+C_(-m) z_m + D_0 u. It is exact as harmonics grow; averaging is its zeroth harmonic alone and loses what harmonics of A do
+together.
+
+Rates of inputs are felt. The state of the constant system is what is left without them, x = z + B_rate u:
+z_dot = A z + (B + A B_rate) u, y = C z + (D + C B_rate) u.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .periodic import Named, PeriodicSystem, complex_harmonics
+
+
+@dataclass(frozen=True)
+class Constant:
+    """A constant linear system: A, B, C, D with names and units.
+
+    rate (s, m): B_rate, by which the motion is more than the state per unit of input. harmonic (s,): 0 of states of the mean, n
+    of the cosine and -n of the sine of the n-th harmonic.
+    """
+
+    a: np.ndarray
+    b: np.ndarray
+    c: np.ndarray
+    d: np.ndarray
+    rate: np.ndarray
+    states: Named
+    harmonic: np.ndarray
+
+
+def averaged(system: PeriodicSystem) -> Constant:
+    """The mean of A, B, C, D over the revolution."""
+    parts = (each.mean(axis=0) for each in (system.a, system.b, system.c, system.d, system.b_rate))
+    return _felt(*parts, system.states, np.zeros(len(system.states), int))
+
+
+def _felt(
+    a: np.ndarray, b: np.ndarray, c: np.ndarray, d: np.ndarray, rate: np.ndarray, states: Named, harmonic: np.ndarray
+) -> Constant:
+    """With the rates of the inputs in B and D."""
+    return Constant(a, b + a @ rate, c, d + c @ rate, rate, states, harmonic)
+
+
+def decomposed(system: PeriodicSystem, harmonics: tuple[int, ...]) -> Constant:
+    """Mean and `harmonics` of the state as states of a constant system; those that nothing of the mean acts on are left out.
+
+    With equal blades the next one finds what this one found. A coordinate that keeps its sign then has, of what constant inputs
+    excite, harmonics of the blades' number alone; the differential one, which changes it, those halfway between.
+    """
+    if not harmonics:
+        return averaged(system)
+    orders = np.array([0, *(n for each in harmonics for n in (each, -each))])
+    most = int(2 * np.max(orders))
+    a, b, c, rate = (complex_harmonics(each, most) for each in (system.a, system.b, system.c, system.b_rate))
+    n, s, m = orders.size, system.a.shape[1], system.b.shape[2]
+    hill = a[most + orders[:, None] - orders[None, :]].transpose(0, 2, 1, 3).reshape(n * s, n * s)
+    hill = hill - np.diag(1j * system.omega * np.repeat(orders, s))
+    to_real = np.kron(_to_real(len(harmonics)), np.eye(s))
+    back = np.kron(np.linalg.inv(_to_real(len(harmonics))), np.eye(s))
+    whole_a = to_real @ hill @ back
+    whole_b, whole_rate = (to_real @ each[most + orders].reshape(n * s, m) for each in (b, rate))
+    whole_c = c[most - orders].transpose(1, 0, 2).reshape(-1, n * s) @ back
+    labels = [(0, ""), *((sign * k, f"_{k}{part}") for k in harmonics for sign, part in ((1, "cos"), (-1, "sin")))]
+    states = [(f"{name}{suffix}", unit) for _, suffix in labels for name, unit in system.states]
+    harmonic = np.repeat([k for k, _ in labels], s)
+    acts = np.flatnonzero(_acting(system, harmonic))
+    return _felt(
+        whole_a.real[np.ix_(acts, acts)],
+        whole_b.real[acts],
+        whole_c.real[:, acts],
+        complex_harmonics(system.d, 0)[0].real,
+        whole_rate.real[acts],
+        tuple(states[i] for i in acts),
+        harmonic[acts],
+    )
+
+
+def _acting(system: PeriodicSystem, harmonic: np.ndarray) -> np.ndarray:
+    """Which harmonics of which states constant inputs excite; all where states are those of single blades."""
+    sign, n = np.diag(system.renumbering), system.passages
+    if not np.array_equal(np.diag(sign), system.renumbering):
+        return np.ones(harmonic.size, bool)
+    own = np.tile(np.where(sign < 0, n // 2, 0), harmonic.size // sign.size)
+    return (np.abs(harmonic) - own) % n == 0
+
+
+def _to_real(n: int) -> np.ndarray:
+    """z_0, then (z_nc, z_ns) of every harmonic by z_0, then (z_n, z_-n): z_nc = z_n + z_-n, z_ns = i (z_n - z_-n)."""
+    whole = np.zeros((2 * n + 1, 2 * n + 1), complex)
+    whole[0, 0] = 1.0
+    for k in range(n):
+        i = 1 + 2 * k
+        whole[i : i + 2, i : i + 2] = [[1.0, 1.0], [1j, -1j]]
+    return whole
+
+
+def default_harmonics(n_blades: int) -> tuple[int, ...]:
+    """Harmonics that occur with equal blades: the blades' number, its half where a differential coordinate changes sign."""
+    return (n_blades // 2, n_blades) if n_blades % 2 == 0 else (n_blades, 2 * n_blades)
