@@ -25,7 +25,7 @@ ROOMS = {
     "plotting": ("plotting",),
     "export": ("export", "acoustics"),
     "linear": ("linear", "handling"),
-    "flight": ("flight*", "recorder", "simulation", "stepping", "snapshot", "integrators"),
+    "flight": ("flight*", "recorder", "resuming", "runlog", "simulation", "stepping", "snapshot", "integrators"),
     "tunnel": ("tunnel",),
     "trim": ("trim",),
     "exchange": ("exchange",),
@@ -45,7 +45,7 @@ ROOMS = {
         "sticks",
     ),
     "results": ("results",),
-    "basics": ("errors", "arguments", "atomic", "text", "references", "progress", "views"),
+    "basics": ("errors", "arguments", "atomic", "interruption", "text", "references", "progress", "views"),
 }
 """Rooms of Python and the modules in them; a module that is in none is a room of its own."""
 

@@ -36,7 +36,7 @@ if TYPE_CHECKING:
         from_control,
         load_control,
     )
-    from .errors import InputError, NumericalFailure, WakeflightError
+    from .errors import InputError, Interrupted, NumericalFailure, StorageFailure, WakeflightError
     from .export import export, export_wopwop
     from .file_schemas import file_schema
     from .flight import Flight, fly
@@ -46,6 +46,7 @@ if TYPE_CHECKING:
     from .maneuvers import Maneuver, arrested_descent, load_maneuver, roll_reversal
     from .modes import blade_modes
     from .references import bibtex
+    from .resuming import branch, open_run, recover, rerun, resume
     from .simulation import Simulation
     from .snapshot import Snapshot
     from .studies.converge import converge
@@ -78,7 +79,9 @@ _HOME = {
     "load_control": "control",
     "converge": "studies.converge",
     "InputError": "errors",
+    "Interrupted": "errors",
     "NumericalFailure": "errors",
+    "StorageFailure": "errors",
     "WakeflightError": "errors",
     "export": "export",
     "export_wopwop": "export",
@@ -103,6 +106,11 @@ _HOME = {
     "Engine": "engine",
     "FreeEngine": "engine",
     "GovernedEngine": "engine",
+    "branch": "resuming",
+    "open_run": "resuming",
+    "recover": "resuming",
+    "rerun": "resuming",
+    "resume": "resuming",
     "Simulation": "simulation",
     "Snapshot": "snapshot",
     "Trim": "trim",
@@ -130,6 +138,7 @@ __all__ = [
     "HandlingQualities",
     "Hands",
     "InputError",
+    "Interrupted",
     "LinearModel",
     "Maneuver",
     "NumericalFailure",
@@ -141,6 +150,7 @@ __all__ = [
     "Servos",
     "Simulation",
     "Snapshot",
+    "StorageFailure",
     "TimeMarchingWake",
     "Trim",
     "Tunnel",
@@ -152,6 +162,7 @@ __all__ = [
     "arrested_descent",
     "bibtex",
     "blade_modes",
+    "branch",
     "condition_for",
     "converge",
     "export",
@@ -169,6 +180,10 @@ __all__ = [
     "load_maneuver",
     "load_rotor",
     "noise",
+    "open_run",
+    "recover",
+    "rerun",
+    "resume",
     "roll_reversal",
     "trim",
     "tunnel",

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from .errors import InputError, NumericalFailure
-from .rotor_speed import CONSTANT, Corners, RotorSpeed, history
+from .rotor_speed import CONSTANT, Corners, RotorSpeed, as_text, history
 from .units import number, quantity
 
 
@@ -64,6 +64,10 @@ class Engine:
             )
         return found, 1.0
 
+    def described(self) -> dict[str, Any]:
+        """For the file of a run: the name it is made by again, and what it was made with."""
+        return {"engine": self.name}
+
     def __str__(self) -> str:
         """For the configuration of a run."""
         return type(self).__name__
@@ -79,6 +83,11 @@ def _time(failure: Any) -> float:
     return found
 
 
+def _failing(failure: float) -> dict[str, str | None]:
+    """When engines fail, as they are made with it."""
+    return {"failure": None if math.isinf(failure) else f"{failure!r} s"}
+
+
 class GovernedEngine(Engine):
     """Engines that a governor holds at the nominal speed, by the numbers of the aircraft's file [hilbert1984].
 
@@ -92,6 +101,10 @@ class GovernedEngine(Engine):
     def __init__(self, failure: str | None = None, remaining: float = 0.0):
         self.failure = _time(failure)
         self.remaining = number("remaining", remaining, 0.0, 1.0)
+
+    def described(self) -> dict[str, Any]:
+        """With its failure and what remains."""
+        return {"engine": self.name, **_failing(self.failure), "remaining": self.remaining}
 
     def __str__(self) -> str:
         """With its failure."""
@@ -110,6 +123,10 @@ class FreeEngine(Engine):
     def __init__(self, failure: str | None = None):
         self.failure = _time(failure)
         self.trimmed = 0.0
+
+    def described(self) -> dict[str, Any]:
+        """With its failure."""
+        return {"engine": self.name, **_failing(self.failure)}
 
     def __str__(self) -> str:
         """With its failure."""
@@ -152,3 +169,28 @@ def turning(rotor_speed: RotorSpeed | Engine) -> Turning:
             allowed = f"allowed: {CONSTANT}, {', '.join(ENGINES)}, pairs (time, share of the nominal speed), an Engine"
             raise InputError.of("rotor_speed", rotor_speed, allowed)
     return Turning(history(rotor_speed))
+
+
+def planned(rotor_speed: Any) -> Any:
+    """A rotor speed as the plan of a flight holds it: names and engines as they are, pairs with their times as text."""
+    match rotor_speed:
+        case Engine():
+            return rotor_speed
+    return as_text(rotor_speed)
+
+
+def told(rotor_speed: Any) -> Any:
+    """The same for a file: an engine by its name and what it was made with."""
+    match rotor_speed:
+        case Engine():
+            return rotor_speed.described()
+    return rotor_speed
+
+
+def engine_of(described: Mapping[str, Any]) -> Engine:
+    """The engine that `Engine.described` told of; one of a user's own is in no file."""
+    given = dict(described)
+    name = given.pop("engine")
+    if name not in ENGINES:
+        raise InputError.of("rotor_speed", name, f"an engine of your own is in no file; allowed: {', '.join(ENGINES)}")
+    return ENGINES[name](**given)

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import time
 from bisect import bisect_left, bisect_right
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,17 +13,22 @@ import numpy as np
 
 from .arguments import checked
 from .control import augmentation
-from .engine import Engine
-from .errors import InputError, NumericalFailure
+from .engine import Engine, planned
+from .errors import InputError, Interrupted, NumericalFailure
+from .flight_folder import Kept, RunFolder
+from .flight_input import Asked, FlightInput, Plan
 from .flight_monitors import monitors
 from .inflow import InflowModel
+from .integrators import RTOL
+from .interruption import asked, deferred
+from .interruption import text as text_of
 from .maneuvers import ROUNDING, Maneuver
 from .model import Model
 from .monitors import warnings as monitored
-from .progress import Reported, heard, reporting
-from .recorder import Recorder
+from .progress import Progress, Reported, Silent, heard, reporting
+from .recorder import Recorder, keeps_sheets
 from .rotor_speed import CONSTANT, RotorSpeed, unflown
-from .simulation import RTOL, Simulation
+from .simulation import Simulation
 from .thinning import thinned
 from .trim import INCH, Trim
 from .views import html_table
@@ -123,6 +128,7 @@ def fly(
     rotor_speed: RotorSpeed | Engine = CONSTANT,
     control: Any = None,
     actuators: Any = None,
+    out: str | Path | None = None,
 ) -> Flight:
     """Fly `maneuver` from `start`.
 
@@ -143,61 +149,133 @@ def fly(
     regime it leads into. revolutions: flown ones, by default the manoeuvre's. A manoeuvre written for another travel or rotor
     speed is flown as `Maneuver.for_aircraft` makes it; the Flight holds it as flown. A numerical failure raises
     `NumericalFailure` whose `partial` is the Flight so far.
+
+    out: a folder to which rows go as they are flown, with a checkpoint every second, and `run.nc` at the end: whatever stops the
+    flight, `resume` goes on from there, and memory does not grow with its length.
     """
     progress = heard(progress)
-    begun = time.perf_counter()
-    travel = start.aircraft.stick_travel_in
-    maneuver = maneuver.for_aircraft(travel, start.model.omega)
+    maneuver = maneuver.for_aircraft(start.aircraft.stick_travel_in, start.model.omega)
     made = augmentation(maneuver.control if control is None else control, actuators)
-    sim = Simulation.prepared(start, inflow, integrator, rtol, stabilator, rotor_speed, made)
-    model, clock = sim.model, sim.clock
-    n_steps = flown_steps(model, maneuver, revolutions)
-    warnings = maneuver.check_travel(start.stick_si / INCH, travel, None, start.aircraft.stick_rate_limit_in)
-    warnings += maneuver.check_end(max(clock.time(n_steps), maneuver.duration(model.omega)))
-    warnings += unflown(model.rotor_speed, clock.time(n_steps))
-    maneuver = thinned(maneuver, clock, n_steps)
-    sticks = Sticks(maneuver, start.stick_si)
-    for text in maneuver.adapted:
-        progress(f"note: {text}")
-    warnings += [*start.aircraft.warnings, *(f"trim: {text}" for text in (*start.notes, *monitored(start.monitors)))]
-    for text in warnings:
-        progress(f"warning: {text}")
+    speed = planned(rotor_speed)
+    plan = Plan(replace(maneuver, control=None), inflow, revolutions, integrator, rtol, stabilator, speed, made)
+    given = FlightInput.of(start.aircraft, Asked.of(start), plan)
+    flying = Flying(start, given, progress)
+    if out is None:
+        return flying.go()
+    with RunFolder(out) as folder:
+        note = folder.begin(given)
+        if note:
+            progress(f"note: {note}")
+        folder.keep_trim(start)
+        return flying.go(folder)
 
-    sim.converge(progress)
-    recorder = Recorder(sim, maneuver, n_steps)
-    progress.phase("flight", n_steps / model.steps_per_revolution)
-    failure = None
-    try:
-        for _ in range(n_steps):
-            sim.follow(sticks, recorder.record)
-            progress.advance(1 / model.steps_per_revolution, f"t = {sim.t:.2f} s")
-        recorder.record(sim.last(sticks))
-    except (NumericalFailure, ArithmeticError, np.linalg.LinAlgError) as reason:
-        revolution = (recorder.n_recorded - 1) / model.steps_per_revolution
-        failure = f"flight of {maneuver.name} stopped in revolution {revolution:.2f}: {reason}"
 
-    if recorder.n_recorded == 0:
-        raise NumericalFailure(failure)
-    watched = monitors(recorder)
-    for text in monitored(watched):
-        warnings.append(text)
-        progress(f"warning: {text}")
-    attributes = {
-        "seconds_trim": start.seconds,
-        "seconds_convergence": sim.phase.seconds,
-        "seconds_wake": sim.seconds["wake"],
-        "seconds_dynamics": sim.seconds["dynamics"],
-        "seconds_total": start.seconds + time.perf_counter() - begun,
-        "integrator": integrator,
-        "integration_method": sim.solver.method,
-        "blades": "flexible" if start.aircraft.flexible else "rigid",
-        **sim.solver.statistics,
-    }
-    data = recorder.dataset(attributes, watched, warnings, failure)
-    flight = Flight(start, maneuver, data, tuple(warnings), failure)
-    if failure is not None:
-        raise NumericalFailure(failure, partial=flight)
-    return flight
+class Flying:
+    """A flight that has been checked and is ready to go, from its start or from a moment that was kept."""
+
+    def __init__(self, start: Trim, given: FlightInput, progress: Progress | Silent):
+        """Check what is flown; tell what is doubtful."""
+        self.start, self.given, self.progress = start, given, progress
+        self._begun = time.perf_counter()
+        plan = given.plan
+        self.sim = Simulation.prepared(
+            start, plan.inflow, plan.integrator, plan.rtol, plan.stabilator, plan.rotor_speed, plan.control
+        )
+        model, clock = self.sim.model, self.sim.clock
+        travel = start.aircraft.stick_travel_in
+        maneuver = plan.maneuver.for_aircraft(travel, model.omega)
+        self.n_steps = n_steps = flown_steps(model, maneuver, plan.revolutions)
+        warnings = maneuver.check_travel(start.stick_si / INCH, travel, None, start.aircraft.stick_rate_limit_in)
+        warnings += maneuver.check_end(max(clock.time(n_steps), maneuver.duration(model.omega)))
+        warnings += unflown(model.rotor_speed, clock.time(n_steps))
+        self.maneuver = maneuver = thinned(maneuver, clock, n_steps)
+        for text in maneuver.adapted:
+            progress(f"note: {text}")
+        warnings += [
+            *start.aircraft.warnings,
+            *(f"trim: {text}" for text in (*start.notes, *monitored(start.monitors))),
+        ]
+        for text in warnings:
+            progress(f"warning: {text}")
+        self.warnings = warnings
+        self.keeps_sheets = keeps_sheets(model, n_steps)
+
+    def go(self, folder: RunFolder | None = None, kept: Kept | None = None) -> Flight:
+        """Fly. folder: where the flight is kept; kept: the moment from which it goes on."""
+        sim, progress, n_steps = self.sim, self.progress, self.n_steps
+        if kept is None or kept.phase is None:
+            sim.converge(progress)
+            if folder is not None:
+                folder.keep_start(self.start, Kept(sim.snapshot(), sim.phase, sim.seconds))
+        if kept is not None:
+            sim.go_on(kept.snapshot, kept.phase, kept.seconds)
+        recorder = self._recorder(folder, kept)
+        sticks = Sticks(self.maneuver, self.start.stick_si)
+        per_revolution = sim.model.steps_per_revolution
+        progress.phase("flight", (n_steps - sim.steps) / per_revolution)
+        failure, signalled = None, None
+        try:
+            with deferred():
+                while sim.steps < n_steps and signalled is None:
+                    sim.follow(sticks, recorder.record)
+                    progress.advance(1 / per_revolution, f"t = {sim.t:.2f} s")
+                    if folder is not None:
+                        folder.beat(sim)
+                    signalled = asked()
+            if signalled is None:
+                recorder.record(sim.last(sticks))
+        except (NumericalFailure, ArithmeticError, np.linalg.LinAlgError) as reason:
+            revolution = (recorder.n_recorded - 1) / per_revolution
+            failure = f"flight of {self.maneuver.name} stopped in revolution {revolution:.2f}: {reason}"
+        if signalled is not None:
+            at = f"t = {sim.t:.4f} s, revolution {sim.steps / per_revolution:.2f}"
+            failure = f"flight of {self.maneuver.name} {text_of(signalled)} at {at}"
+            if folder is not None:
+                folder.beat(sim, last=True)
+
+        if recorder.n_recorded == 0:
+            raise NumericalFailure(failure or "nothing was flown")
+        flight = self.flight(recorder, failure)
+        if folder is not None:
+            folder.save(flight.data, ended=signalled is None)
+        if signalled is not None:
+            raise Interrupted(failure or "", signalled, partial=flight)
+        if failure is not None:
+            raise NumericalFailure(failure, partial=flight)
+        return flight
+
+    def _recorder(self, folder: RunFolder | None, kept: Kept | None) -> Recorder:
+        if folder is None:
+            return Recorder(self.sim, self.maneuver, self.n_steps)
+        rows, wakes = (0, 0) if kept is None else (kept.rows, kept.wakes)
+        logs = folder.rows(self.sim, rows), folder.wakes(wakes)
+        return Recorder(self.sim, self.maneuver, self.n_steps, *logs, n_recorded=rows)
+
+    def flight(self, recorder: Recorder, failure: str | None) -> Flight:
+        """What was recorded as a Flight."""
+        sim, start, warnings = self.sim, self.start, list(self.warnings)
+        recorder.read()
+        watched = monitors(recorder)
+        for text in monitored(watched):
+            warnings.append(text)
+            self.progress(f"warning: {text}")
+        seconds = dict(sim.seconds)
+        flown_before = sum(self.sim.seconds_before.values())
+        attributes = {
+            "seconds_trim": start.seconds,
+            "seconds_convergence": sim.phase.seconds,
+            "seconds_wake": seconds["wake"],
+            "seconds_dynamics": seconds["dynamics"],
+            "seconds_total": start.seconds + flown_before + time.perf_counter() - self._begun,
+            "integrator": self.given.plan.integrator,
+            "integration_method": sim.solver.method,
+            "integrator_schedule": sim.solver.schedule,
+            "blades": "flexible" if start.aircraft.flexible else "rigid",
+            **sim.solver.statistics,
+            "input": self.given.text,
+        }
+        data = recorder.dataset(attributes, watched, warnings, failure)
+        return Flight(start, self.maneuver, data, tuple(warnings), failure)
 
 
 def flown_steps(model: Model, maneuver: Maneuver, revolutions: float | None) -> int:

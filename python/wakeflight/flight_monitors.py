@@ -24,7 +24,7 @@ def monitors(run: Recorder) -> tuple[Monitor, ...]:
     theta = np.array([model.pitch_controls(row) for row in stick])[:, [2, 0, 1]]
     motion = (np.linalg.norm(y[:, :3], axis=1), np.linalg.norm(y[:, 3:6], axis=1))
     passage = model.steps_per_revolution // model.n_blades
-    inches = dict(zip(STICKS, run.log.pilot[:n].T / INCH, strict=True))
+    inches = dict(zip(STICKS, run.log.pilot(n, stick).T / INCH, strict=True))
     engine = rotor.over_passage(run.scalars["power"][:n], passage)
     shaft = rotor.over_passage(-model.hand * run.loads["hub_moment"][:n, 2], passage)
     found = [

@@ -23,6 +23,16 @@ class Integrator(Protocol):
     def begun(self) -> bool:
         """Whether it has been started."""
 
+    @property
+    def schedule(self) -> str:
+        """When it begins anew, in words: part of what a flight depends on."""
+
+    def restarts(self, step: int) -> bool:
+        """Whether it begins anew after `step` coupling steps, whatever is kept there; only there `memory` disturbs nothing."""
+
+    def restart(self) -> None:
+        """Forget the past where `restarts` says so; where the memory can be read there is nothing to forget."""
+
     def start(self, t: float, y: np.ndarray, y_dot: np.ndarray) -> None:
         """Begin at a consistent state."""
 
@@ -68,9 +78,13 @@ class IdaIntegrator:
     where a coupling step begins, and its inertia again every few degrees from there (`KEPT`). Derivatives are the means by
     which IDA solves its equations: where they do not suffice, it takes a shorter step.
 
-    IDA's own memory (history, order, step, last derivatives) cannot be read. `memory` therefore starts it anew where it stands,
-    and `recall` does the same: both go on to the same bits, which are not those of a run that was not interrupted.
+    IDA's own memory (history, order, step, last derivatives) cannot be read. It is therefore begun anew at every revolution,
+    whether a flight is kept there or not: one that is cut there and goes on follows the bits of the uncut one. `memory` and
+    `recall` begin it anew too: asked for elsewhere, they change the flight within the tolerances.
     """
+
+    RESTART_TURNS = 1
+    """Revolutions after which it is begun anew; a restart costs some ten residuals and the small steps of order one."""
 
     method = "BDF of variable step and order (SUNDIALS IDA)"
 
@@ -95,6 +109,20 @@ class IdaIntegrator:
     def begun(self) -> bool:
         """Whether it has been started."""
         return self._solver is not None
+
+    @property
+    def schedule(self) -> str:
+        """When it begins anew, in words."""
+        return f"begun anew every {self.RESTART_TURNS * self.model.steps_per_revolution} coupling steps"
+
+    def restarts(self, step: int) -> bool:
+        """Whether it begins anew after `step` coupling steps."""
+        return step % (self.RESTART_TURNS * self.model.steps_per_revolution) == 0
+
+    def restart(self) -> None:
+        """Begin anew; at once twice is once."""
+        if self.begun:
+            self._forget()
 
     def memory(self) -> bytes:
         """Counted work: the rest is found anew, here too."""
@@ -212,6 +240,18 @@ class FixedIntegrator:
         """Whether it has been started."""
         return self._solver is not None
 
+    @property
+    def schedule(self) -> str:
+        """Its memory is read: it never begins anew."""
+        return "never begun anew"
+
+    def restarts(self, step: int) -> bool:
+        """Its memory is read at any step, and nothing changes."""
+        return True
+
+    def restart(self) -> None:
+        """Nothing to forget."""
+
     def memory(self) -> bytes:
         """State, rates at the last stages, where dF/dy was found, counted work; nothing before the first step."""
         return b"" if self._solver is None else self._solver.memory()
@@ -276,6 +316,9 @@ class FixedIntegrator:
         counted = (0,) * len(names) if self._solver is None else self._solver.counters()
         return dict(zip(names, counted, strict=True))
 
+
+RTOL = 1e-5
+"""Relative tolerance of the solver that the absolute ones belong to."""
 
 INTEGRATORS = {"ida": IdaIntegrator, "fixed": FixedIntegrator}
 """Solvers by the name the command line uses."""

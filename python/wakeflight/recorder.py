@@ -5,7 +5,8 @@ from __future__ import annotations
 
 import json
 import math
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
@@ -15,6 +16,7 @@ from .maneuvers import Maneuver
 from .model import Model
 from .modes import mode_labels
 from .monitors import Monitor, Places, rotor, variables
+from .runlog import MemoryRows, MemoryWakes
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -29,81 +31,143 @@ SOMETIMES = ("load_power", "vortex_blade_distance", "rotor_speed", "torque")
 STATION_FIELDS = ("inflow", "circulation", "cl", "cl_m2", "alpha", "mach")
 
 
-class Recorder:
-    """Arrays of a run, filled step by step; `stick` is what reaches the blades."""
+LOADS = ("force", "moment", "hub_force", "hub_moment")
+SCALARS = (
+    "ct",
+    "beta_1c",
+    "beta_1s",
+    "power",
+    "inflow_mean",
+    "odd_even",
+    "max_displacement",
+    "stabilator",
+    "vortex_blade_distance",
+    "energy",
+    "load_power",
+    "rotor_speed",
+    "torque",
+)
+BLADE_ANGLES = ("flap", "lead")
 
-    def __init__(self, sim: Simulation, maneuver: Maneuver, n_steps: int):
+
+def fields_of(sim: Simulation) -> dict[str, tuple[int, ...]]:
+    """What is kept of every coupling step, and its shape."""
+    model = sim.model
+    blades, stations = model.n_blades, model.stations.size
+    return {
+        "time": (),
+        "state": (model.layout["size"],),
+        "stick": (4,),
+        "azimuth": (blades,),
+        **dict.fromkeys(STATION_FIELDS, (blades, stations)),
+        **dict.fromkeys(LOADS, (3,)),
+        **dict.fromkeys(SCALARS, ()),
+        **dict.fromkeys(BLADE_ANGLES, (blades,)),
+        **ControlLog(sim.chain).fields,
+    }
+
+
+class Rows(Protocol):
+    """Where rows go: memory, or a log."""
+
+    window: Any
+    """Arrays by the names of the fields, of which one place is being filled."""
+
+    def place(self) -> int:
+        """Which."""
+
+    def done(self, step: int) -> None:
+        """The row of `step` is complete there."""
+
+    def whole(self) -> Mapping[str, np.ndarray]:
+        """All rows by name."""
+
+
+class Wakes(Protocol):
+    """Where wakes go."""
+
+    def append(self, step: int, arrays: dict[str, np.ndarray]) -> None:
+        """Keep the wake of a step."""
+
+    def whole(self) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+        """Steps, and arrays by name over them."""
+
+
+class Recorder:
+    """Rows of a run, filled step by step; `stick` is what reaches the blades.
+
+    rows, wakes: where they go, memory by default; n_recorded: how many there are already. While the flight lasts the arrays here
+    are a window of the rows, `read` makes them all of them.
+    """
+
+    def __init__(
+        self,
+        sim: Simulation,
+        maneuver: Maneuver,
+        n_steps: int,
+        rows: Rows | None = None,
+        wakes: Wakes | None = None,
+        n_recorded: int = 0,
+    ):
         self.model, self.start, self.maneuver = sim.model, sim.start, maneuver
-        model = sim.model
         self.exchange, self.phase = sim.exchange, sim.phase
+        self.log, self.control = ControlLog(sim.chain), sim.control
         self.turning = sim.turning.name
-        self.n_recorded = 0
-        n, blades, stations = n_steps + 1, model.n_blades, model.stations.size
-        self.time = np.empty(n)
-        self.state = np.empty((n, model.layout["size"]))
-        self.stick = np.empty((n, 4))
-        self.log, self.control = ControlLog(sim.chain, n), sim.control
-        self.blade = {name: np.empty((n, blades, stations)) for name in STATION_FIELDS}
-        self.azimuth = np.empty((n, blades))
-        self.loads = {name: np.empty((n, 3)) for name in ("force", "moment", "hub_force", "hub_moment")}
-        self.scalars = {
-            name: np.empty(n)
-            for name in (
-                "ct",
-                "beta_1c",
-                "beta_1s",
-                "power",
-                "inflow_mean",
-                "odd_even",
-                "max_displacement",
-                "stabilator",
-                "vortex_blade_distance",
-                "energy",
-                "load_power",
-                "rotor_speed",
-                "torque",
-            )
-        }
-        self.blade_angles = {name: np.empty((n, blades)) for name in ("flap", "lead")}
-        self.snapshots: list[np.ndarray] = []
-        self.snapshot_circulation: list[np.ndarray] = []
-        self.snapshot_core: list[np.ndarray] = []
-        self.snapshot_revolution: list[float] = []
-        self.sheets: list[tuple[np.ndarray, np.ndarray]] = []
-        self.keeps_sheets = keeps_sheets(model, n_steps)
+        self.n_recorded = n_recorded
+        self.keeps_sheets = keeps_sheets(sim.model, n_steps)
+        self._rows = rows or MemoryRows(fields_of(sim), n_steps + 1)
+        self._wakes = wakes or MemoryWakes()
+        self._bind(self._rows.window)
+
+    def _bind(self, arrays: Any) -> None:
+        """The arrays here are these."""
+        self.log.bind(arrays)
+        self.time, self.state, self.stick, self.azimuth = (
+            arrays[name] for name in ("time", "state", "stick", "azimuth")
+        )
+        self.blade = {name: arrays[name] for name in STATION_FIELDS}
+        self.loads = {name: arrays[name] for name in LOADS}
+        self.scalars = {name: arrays[name] for name in SCALARS}
+        self.blade_angles = {name: arrays[name] for name in BLADE_ANGLES}
+
+    def read(self) -> None:
+        """The flight has ended: the arrays are all rows, for monitors and Dataset."""
+        self._bind(self._rows.whole())
 
     def record(self, at: Instant) -> None:
         """Keep one instant: the state, its consistent rate, and the inputs that begin there."""
         step, t, y, stick = at.step, at.t, at.y, at.stick
+        k = self._rows.place()
         out = self.model.core.outputs(t, y, at.y_dot, at.inputs)
-        self.time[step], self.state[step], self.stick[step] = t, y, stick
-        self.log.record(step, stick)
-        self.azimuth[step] = out["azimuth"]
+        self.time[k], self.state[k], self.stick[k] = t, y, stick
+        self.log.record(k)
+        self.azimuth[k] = out["azimuth"]
         for name, values in self.blade.items():
-            values[step] = out[name]
-        check_sample(self.model, t, y, stick, self.azimuth[step], self.blade["inflow"][step], self.blade["mach"][step])
+            values[k] = out[name]
+        check_sample(self.model, t, y, stick, self.azimuth[k], self.blade["inflow"][k], self.blade["mach"][k])
         for name, values in self.loads.items():
-            values[step] = out[name]
+            values[k] = out[name]
         for name in ("ct", "beta_1c", "beta_1s"):
-            self.scalars[name][step] = out[name]
+            self.scalars[name][k] = out[name]
         angles = self.model.core.equivalent_angles(self.model.modal(y)[0])
-        self.blade_angles["flap"][step], self.blade_angles["lead"][step] = angles
-        self.scalars["power"][step] = sum(out["power"])
-        self.scalars["stabilator"][step] = at.stabilator
+        self.blade_angles["flap"][k], self.blade_angles["lead"][k] = angles
+        self.scalars["power"][k] = sum(out["power"])
+        self.scalars["stabilator"][k] = at.stabilator
         dynamic = self.model.inflow.is_dynamic
         first = self.model.layout["inflow"][0]
-        self.scalars["inflow_mean"][step] = y[first] if dynamic else at.mean_inflow
+        self.scalars["inflow_mean"][k] = y[first] if dynamic else at.mean_inflow
         monitors = self.exchange.monitors
-        self.scalars["odd_even"][step] = monitors["odd_even"]
-        self.scalars["max_displacement"][step] = monitors["max_displacement"] * self.model.rotor["radius"]
-        self.scalars["vortex_blade_distance"][step] = monitors["vortex_blade_distance"]
-        self.scalars["rotor_speed"][step], self.scalars["torque"][step] = out["rotor_speed"], out["engine_torque"]
-        self.scalars["energy"][step], self.scalars["load_power"][step] = out["energy"], out["load_power"]
+        self.scalars["odd_even"][k] = monitors["odd_even"]
+        self.scalars["max_displacement"][k] = monitors["max_displacement"] * self.model.rotor["radius"]
+        self.scalars["vortex_blade_distance"][k] = monitors["vortex_blade_distance"]
+        self.scalars["rotor_speed"][k], self.scalars["torque"][k] = out["rotor_speed"], out["engine_torque"]
+        self.scalars["energy"][k], self.scalars["load_power"][k] = out["energy"], out["load_power"]
         if step % (self.model.steps_per_revolution // SNAPSHOTS_PER_REVOLUTION) == 0:
             self._keep_wake(step)
         # a row counts only when it is finite: what cannot be kept ends the flight
         if not np.isfinite(y).all() or not all(map(math.isfinite, out["force"])):
             raise ArithmeticError(f"loads are not finite at t = {t:.4f} s")
+        self._rows.done(step)
         self.n_recorded = step + 1
 
     def _keep_wake(self, step: int) -> None:
@@ -112,12 +176,10 @@ class Recorder:
         if tips is None:
             return
         position, circulation, core_radius = tips
-        self.snapshots.append(position)
-        self.snapshot_circulation.append(circulation)
-        self.snapshot_core.append(at_nodes(core_radius))
+        arrays = {"wake": position, "wake_circulation": circulation, "wake_core": at_nodes(core_radius)}
         if self.keeps_sheets:
-            self.sheets.append(self.exchange.lattice(step))
-        self.snapshot_revolution.append(step / self.model.steps_per_revolution)
+            arrays["wake_sheet"], arrays["wake_sheet_circulation"] = self.exchange.lattice(step)
+        self._wakes.append(step, arrays)
 
     def dataset(
         self, attributes: dict[str, Any], monitors: tuple[Monitor, ...], warnings: list[str], failure: str | None
@@ -204,17 +266,13 @@ class Recorder:
 
     def _wake_arrays(self, phase: ConvergencePhase) -> dict[str, Any]:
         arrays: dict[str, Any] = {}
-        if self.snapshots:
-            positions = np.array(self.snapshots)
-            arrays["wake"] = positions
-            arrays["wake_circulation"] = np.array(self.snapshot_circulation)
-            arrays["wake_core"] = np.array(self.snapshot_core)
-            arrays["snapshot_revolution"] = np.array(self.snapshot_revolution)
-            arrays["age"] = 2 * np.pi * np.arange(positions.shape[2]) / self.model.steps_per_revolution
-        if self.sheets:
-            arrays["wake_sheet"], arrays["wake_sheet_circulation"] = (
-                np.array(each) for each in zip(*self.sheets, strict=True)
-            )
+        steps, kept = self._wakes.whole()
+        if kept:
+            # the wake of a row is kept before the row counts
+            n = int(np.searchsorted(steps, self.n_recorded))
+            arrays |= {name: values[:n] for name, values in kept.items()}
+            arrays["snapshot_revolution"] = steps[:n] / self.model.steps_per_revolution
+            arrays["age"] = 2 * np.pi * np.arange(kept["wake"].shape[2]) / self.model.steps_per_revolution
         n = self.model.steps_per_revolution
         arrays["psi"] = 2 * np.pi * np.arange(n) / n
         arrays["inflow_trim"] = self.start.inflow_map

@@ -59,6 +59,11 @@ def history(given: Any) -> Corners:
     return tuple(corners)
 
 
+def as_text(given: Any) -> Any:
+    """A rotor speed as it may be written down: a name as it is, pairs with their times as text."""
+    return given if isinstance(given, str) else tuple((f"{t!r} s", share) for t, share in history(given))
+
+
 def unflown(corners: Corners, end: float) -> list[str]:
     """Warning about corners of a history after the end of the flight at `end` [s]."""
     last = max((t for t, _ in corners), default=0.0)

@@ -25,7 +25,7 @@ from .engine import Engine, Turning, turning
 from .errors import InputError, NumericalFailure
 from .exchange import Exchange, exchange_of
 from .inflow import InflowModel, inflow_model, like
-from .integrators import INTEGRATORS
+from .integrators import INTEGRATORS, RTOL
 from .model import Model, flight_regime
 from .progress import Progress, Reported, Silent, heard
 from .rotor_speed import CONSTANT, RotorSpeed, shares
@@ -36,8 +36,6 @@ from .trim import INCH, Trim
 from .units import number, quantity
 from .views import html_table
 
-RTOL = 1e-5
-"""Relative tolerance of the solver that the absolute ones belong to."""
 RTOLS = (1e-14, 0.1)
 """Least and largest relative tolerance that can be asked for."""
 
@@ -127,6 +125,14 @@ class Simulation(Stepping):
         """Start the exchange; a marching wake goes through its convergence phase."""
         self.exchange, self.phase = begun(self.model, self.start, progress)
 
+    def go_on(self, snapshot: Snapshot, phase: ConvergencePhase | None, seconds: dict[str, float]) -> None:
+        """Go on from a moment of the same flight that was kept, in place of `converge` where its `phase` is given."""
+        if phase is not None:
+            self.phase = phase
+        self.restore(snapshot)
+        self.seconds = dict(seconds)
+        self.seconds_before = {**seconds, "convergence": self.phase.seconds}
+
     def _prepare(
         self,
         start: Trim,
@@ -147,6 +153,7 @@ class Simulation(Stepping):
         self.integrator, self.rtol, self.stabilator = integrator, rtol, stabilator
         self.control = control
         self.chain = None if control.nothing else Chain(control, start)
+        self.seconds_before: dict[str, float] = {}
         solver = INTEGRATORS[integrator](model, rtol, atol_scale=rtol / RTOL)
         # the states of a flight may be more than those of its trim
         y = model.core.trim_state(start.problem, start.x, 0.0)[0] if model.has_free_speed else start.state(0.0)
@@ -310,7 +317,7 @@ class Simulation(Stepping):
             "discretisation": str(start.aircraft.discretisation),
             "condition": str(start.condition),
             "inflow": str(model.inflow),
-            "integrator": f"{self.integrator}, rtol {self.rtol!r}",
+            "integrator": f"{self.integrator}, rtol {self.rtol!r}, {self.solver.schedule}",
             "stabilator": self.stabilator,
             "rotor speed": self.turning.name,
             "control": json.dumps(self.control.described(), sort_keys=True),

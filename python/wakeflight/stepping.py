@@ -121,6 +121,8 @@ class Stepping:
     def instant(self, sticks: StickPath, ends: bool = False) -> Instant:
         """Where the next coupling step along `sticks` begins; `ends`: no step follows, the servo rests."""
         t = self.t
+        if self.solver.restarts(self._step):
+            self.solver.restart()
         stick = sticks.at(t)
         if self.stabilator == "scheduled" and self._step > 0 and not ends:
             follow = self.model.core.followed_incidence

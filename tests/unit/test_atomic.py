@@ -156,3 +156,13 @@ def test_a_figure_that_cannot_be_drawn_stops_itself_alone(tmp_path, run, monkeyp
 
 def test_errors_are_one_family():
     assert issubclass(StorageFailure, wf.WakeflightError)
+
+
+def test_a_device_is_not_replaced(tmp_path):
+    # a write that renames over /dev/null would take it from the machine
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    for there in (pipe, tmp_path):
+        with pytest.raises(StorageFailure, match="not a plain file"):
+            atomic.write_text(there, "new")
+    assert pipe.is_fifo()

@@ -183,7 +183,7 @@ def test_wrong_threads_in_the_environment_are_refused(capsys, monkeypatch):
 def test_a_checked_request_is_handed_on(monkeypatch, tmp_path):
     seen = {}
 
-    def record(request, revolutions, integrator, out, progress):
+    def record(request, revolutions, integrator, out, progress, every):
         seen.update(request=request, revolutions=revolutions, integrator=integrator, out=out)
 
     monkeypatch.setattr(outcome, "fly_once", record)
@@ -219,27 +219,25 @@ def test_errors_become_one_line_and_their_exit_code(capsys, monkeypatch, error, 
     assert err.strip().splitlines()[-1].startswith("wakeflight: ")
 
 
-def test_a_failed_flight_is_saved_before_exit_code_3(monkeypatch, tmp_path):
-    saved = []
+def test_a_failed_flight_is_saved_before_exit_code_3(capsys, monkeypatch, tmp_path):
+    from wakeflight import results
+    from wakeflight.simulation import Simulation
 
-    class Flight:
-        finished = False
-        failure = "flight: no step possible at 1.2 s"
+    follow = Simulation.follow
+
+    def fails(sim, sticks, observer=None):
+        if sim.steps == 5:
+            raise ArithmeticError("no step possible")
+        follow(sim, sticks, observer)
 
     monkeypatch.undo()
-    monkeypatch.setattr(outcome, "save_flight", lambda flight, out, progress, drawing: saved.append(out))
-    monkeypatch.setitem(sys.modules, "wakeflight.trim", _module(trim=lambda *a, **k: "start"))
-    monkeypatch.setitem(sys.modules, "wakeflight.flight", _module(fly=lambda *a, **k: Flight()))
-    with pytest.raises(SystemExit) as caught:
-        cli.main([*FLY, "--out", str(tmp_path)])
-    assert caught.value.code == 3
-    assert saved == [tmp_path]
-
-
-def _module(**names):
-    from types import SimpleNamespace
-
-    return SimpleNamespace(**names)
+    monkeypatch.setattr(Simulation, "follow", fails)
+    typed = ["fly", "roll-reversal", "--inflow", "dynamic", "--no-figures", "--out", str(tmp_path)]
+    code, _, err = _run(capsys, typed)
+    assert code == 3
+    assert err.strip().splitlines()[-1].startswith("wakeflight: numerical failure: flight of roll-reversal stopped")
+    data = results.load(tmp_path / "run.nc")
+    assert (data.sizes["time"], data.attrs["finished"]) == (5, 0) and "no step possible" in data.attrs["failure"]
 
 
 def test_help_needs_no_heavy_import():
@@ -331,7 +329,7 @@ figures = false
 def test_a_case_file_asks_for_what_its_options_would(capsys, monkeypatch, tmp_path):
     seen = {}
 
-    def record(request, revolutions, integrator, out, progress):
+    def record(request, revolutions, integrator, out, progress, every):
         seen.update(request=request, integrator=integrator, out=out)
 
     monkeypatch.setattr(outcome, "fly_once", record)

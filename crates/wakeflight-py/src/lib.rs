@@ -32,7 +32,7 @@ mod _core {
         options::{check_options, option_descriptors},
         system::{PyInputs, PySystem, SectionMemory},
         trim::{TrimLayout, TrimProblem},
-        vortex::{induced_velocity, instruction_set, set_threads},
+        vortex::{build_commit, induced_velocity, instruction_set, set_threads},
         wake::{RelaxationWake, TimeMarchingWake, near_wake_matrix, wing_circulation},
     };
 }

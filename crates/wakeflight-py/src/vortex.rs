@@ -67,6 +67,12 @@ pub fn set_threads(n: i64) -> PyResult<()> {
     threads::set_threads(usize::try_from(n).unwrap_or(0)).map_err(invalid)
 }
 
+/// Commit that was built, `unknown` outside a checkout.
+#[pyfunction]
+pub fn build_commit() -> &'static str {
+    env!("WAKEFLIGHT_COMMIT")
+}
+
 /// Name of the instruction set that sums and derivatives run on.
 #[pyfunction]
 pub fn instruction_set() -> PyResult<&'static str> {

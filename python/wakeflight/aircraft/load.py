@@ -12,7 +12,7 @@ from pydantic import BaseModel, ValidationError
 from ..arguments import checked
 from ..errors import InputError, one_line
 from ..references import known_keys
-from ..text import is_file, read_toml
+from ..text import is_file, read_text, read_toml
 from .model import Aircraft
 from .schema import AircraftFile
 from .shipped import SHIPPED, folder_of
@@ -70,6 +70,7 @@ def validated(path: Path, written: Written, schema: type[BaseModel], allow_outsi
         "directory": path.parent,
         "allow_outside": allow_outside,
         "sources": set(sources) if isinstance(sources, dict) else set(),
+        "contents": {path.name: read_text(path)},
     }
     try:
         spec = schema.model_validate(data, context=context)

@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 from typing import Annotated, Literal
 
-from pydantic import Field, model_validator
+from pydantic import Field, PrivateAttr, ValidationInfo, model_validator
 
 from .blade_file import BladeGroup
 from .fields import (
@@ -308,9 +308,16 @@ class AircraftFile(Group):
     limits: Limits | None = None
     discretisation: Discretisation = Discretisation()
     comparison: dict[str, Noted] = Field(default_factory=dict)
+    _contents: dict[str, str] = PrivateAttr(default_factory=dict)
+
+    @property
+    def contents(self) -> dict[str, str]:
+        """Text of the file and of every table it names, by their names, as they were read."""
+        return self._contents
 
     @model_validator(mode="after")
-    def _complete(self) -> AircraftFile:
+    def _complete(self, info: ValidationInfo) -> AircraftFile:
+        self._contents = (info.context or {}).get("contents", {})
         for group, keys in (
             ("condition", ("speed", "flight_path", "altitude", "weight")),
             ("loading", ("cg_station", "cg_buttline", "cg_waterline", "inertia")),

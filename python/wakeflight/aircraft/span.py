@@ -19,12 +19,13 @@ from typing import Annotated, Any, Literal
 from pydantic import AfterValidator, BeforeValidator, Field, ValidationInfo, model_validator
 
 from ..errors import InputError
+from ..text import read_text
 from .airfoils import EXTENSIONS, NAMED_WAYS, Grid, analytic_polar, covers, extended
 from .c81 import read_c81
 from .fields import Angle, Group, Name
 from .number import Provenance, numbers, provenance_of, scalar, vector
 from .sections import check_sections
-from .tables import Table, by_mach, named_file
+from .tables import Table, by_mach, keep, named_file
 
 JOIN = 1e-6
 """Fraction of the radius by which extents of neighbouring sections may differ: rounding."""
@@ -48,6 +49,7 @@ def _deck(entry: Any, info: ValidationInfo) -> Deck:
         raise ValueError(f"must be {allowed}")
     path = named_file(name, info)
     grids, notes = read_c81(path)
+    keep(info, name, read_text(path))
     published = Provenance(name, "table", provenance.sources, provenance.confidence, provenance.note)
     return Deck(path=path, grids=grids, provenance=published, notes=tuple(notes))
 

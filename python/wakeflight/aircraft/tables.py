@@ -61,6 +61,8 @@ class TableFile:
     comment: str
     provenance: Provenance
     texts: tuple[tuple[str, tuple[str, ...]], ...] = ()
+    content: str = ""
+    """Text of the file, as it was read."""
 
     def error(self, column: str, value: object, allowed: str) -> InputError:
         """Error about one column of this file."""
@@ -143,7 +145,8 @@ def _is_of(header: str, base: str) -> bool:
 def read_csv(path: Path, provenance: Provenance) -> TableFile:
     """Read a CSV file: `#` lines first, one header line, numbers, and columns of text where no cell is a number."""
     try:
-        lines = lines_of(read_text(path))
+        content = read_text(path)
+        lines = lines_of(content)
     except ValueError as reason:
         raise ValueError(f"names the file {path}, which {reason}") from reason
     comment = [line[1:].strip() for line in lines if line.startswith("#")]
@@ -171,7 +174,7 @@ def read_csv(path: Path, provenance: Provenance) -> TableFile:
             told = f"whose column {shortened(name, 40)} holds '{shortened(wrong, 40)}', not a finite number"
             raise ValueError(f"names the file {path}, {told}")
         columns[name] = tuple(numbers)
-    return TableFile(path, columns, "\n".join(comment), provenance, tuple(texts))
+    return TableFile(path, columns, "\n".join(comment), provenance, tuple(texts), content)
 
 
 def in_place(columns: Any, provenance: Provenance, info: ValidationInfo) -> TableFile:
@@ -218,7 +221,14 @@ def _validate(entry: Any, info: ValidationInfo) -> TableFile:
     if not isinstance(name, str) or not name:
         raise ValueError(f"must be {allowed}")
     published = Provenance(name, "table", provenance.sources, provenance.confidence, provenance.note)
-    return read_csv(named_file(name, info), published)
+    table = read_csv(named_file(name, info), published)
+    keep(info, name, table.content)
+    return table
+
+
+def keep(info: ValidationInfo, name: str, content: str) -> None:
+    """Remember the text of a file by the name it is given: an aircraft knows what it was read from."""
+    (info.context or {}).get("contents", {})[name] = content
 
 
 def named_file(name: str, info: ValidationInfo) -> Path:

@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """The command line: names in, everything checked before anything starts, one line for whatever is wrong.
 
-One file per command; `groups` declares the options that several share. Exit codes: 0 finished, 2 bad input, 3 numerical
-failure (what was computed is kept).
+One file per command; `groups` declares the options that several share. Exit codes: 0 finished; 1 a run flown again has other
+bits; 2 bad input; 3 numerical failure, or a disk that does not take what is written (what was computed is kept); 130 and 143
+interrupted by SIGINT and SIGTERM (what was flown is kept).
 """
 
 from __future__ import annotations
 
+import contextlib
 import os
 import sys
 import traceback
@@ -16,6 +18,7 @@ from typing import Annotated
 import typer
 
 from ..errors import NumericalFailure, WakeflightError, one_line, shortened
+from ..interruption import answered
 from . import (
     case,
     compare,
@@ -28,6 +31,7 @@ from . import (
     new_aircraft,
     paper,
     report,
+    resume,
     trim,
     tunnel,
     validate,
@@ -54,6 +58,9 @@ for _command in (
     tunnel.tunnel,
     paper.paper,
     export.export,
+    resume.resume,
+    resume.recover,
+    resume.rerun,
 ):
     # in the order in which help lists them
     app.command()(expanded(_command))
@@ -88,7 +95,12 @@ def _everywhere(
 def main(arguments: list[str] | None = None) -> None:
     """Run the command line and exit; every expected error is one line on standard error."""
     try:
-        code = app(args=arguments, prog_name="wakeflight", standalone_mode=False) or 0
+        for stream in (sys.stdout, sys.stderr):
+            # a locale that lacks a character does not end a run
+            with contextlib.suppress(AttributeError):
+                stream.reconfigure(errors="replace")  # type: ignore[union-attr]
+        with answered():
+            code = app(args=arguments, prog_name="wakeflight", standalone_mode=False) or 0
     except NumericalFailure as failure:
         code = _complain(f"numerical failure: {failure}", failure.exit_code)
     except WakeflightError as reason:

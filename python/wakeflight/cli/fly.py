@@ -6,6 +6,7 @@ from __future__ import annotations
 from . import outcome
 from .groups import (
     Blades,
+    Checkpoint,
     Condition,
     Control,
     Drawing,
@@ -18,7 +19,7 @@ from .groups import (
     Vehicle,
     Wake,
 )
-from .request import check_flight, request
+from .request import check_flight, request, seconds_between
 
 
 def fly(
@@ -33,14 +34,16 @@ def fly(
     rotor_speed: RotorSpeedName = "constant",
     blades: Blades = None,
     control: Control = None,
+    checkpoint: Checkpoint = "1 s",
     drawing: Drawing,
     run: Run,
 ) -> None:
-    """Trim, fly a manoeuvre, write run.nc, figures and report.html."""
+    """Trim, fly a manoeuvre, write run.nc, figures and report.html; what is flown is kept as it is flown."""
     check_flight(revolutions, integrator, rotor_speed)
+    every = seconds_between(checkpoint)
     asked = request(vehicle, given, inflow, wake, run, maneuver, blades, drawing=drawing, control=control)
     print(asked.told(), flush=True)
     from ..progress import Progress
 
     with Progress() as progress:
-        outcome.fly_once(asked, revolutions, integrator, asked.out, progress, rotor_speed)
+        outcome.fly_once(asked, revolutions, integrator, asked.out, progress, every, rotor_speed)

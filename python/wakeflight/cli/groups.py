@@ -82,6 +82,12 @@ FigureFormat = Annotated[
         autocompletion=offered("png", "svg", "pdf"),
     ),
 ]
+Threads = Annotated[
+    int | None,
+    told("--threads", "threads of the physics core", "WAKEFLIGHT_THREADS or 1"),
+]
+Folder = Annotated[Path, typer.Argument(metavar="DIR", help="folder of a flight")]
+Checkpoint = Annotated[str, typer.Option("--checkpoint", help="wall clock between checkpoints")]
 AllowOutside = Annotated[
     bool, typer.Option("--allow-outside", help="read tables elsewhere than beside the aircraft or rotor file, or below")
 ]
@@ -165,10 +171,7 @@ class Wake(Group):
 class Run(Group):
     """How it runs and where results go."""
 
-    threads: Annotated[
-        int | None,
-        told("--threads", "threads of the physics core", "WAKEFLIGHT_THREADS or 1"),
-    ] = None
+    threads: Threads = None
     out: Out = None
 
 

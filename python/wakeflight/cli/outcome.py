@@ -4,12 +4,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..errors import InputError, NumericalFailure
+from ..errors import InputError, Interrupted, NumericalFailure, WakeflightError, one_line
 
 if TYPE_CHECKING:
+    from ..flight_folder import RunFolder
     from ..progress import Progress
     from .groups import Drawing
     from .request import Request
@@ -44,42 +46,86 @@ def fly_once(
     integrator: str,
     out: Path,
     progress: Progress,
+    every: float | None = None,
     rotor_speed: str = "constant",
 ) -> Any:
-    """Trim and fly one request, save whatever was computed, raise where the flight did not finish."""
-    from ..flight import fly as solve
-    from ..inflow import trim_model
-    from ..trim import trim as trim_solve
+    """Trim and fly one request in the folder `out`, draw whatever was flown, raise where the flight did not finish.
 
-    start = trim_solve(request.aircraft, request.condition, inflow=trim_model(request.inflow), progress=progress)
-    flight = keeping(solve, lambda partial: save_flight(partial, out, progress, request.drawing))(
-        start,
-        request.maneuver,
-        inflow=request.inflow,
-        revolutions=revolutions,
-        integrator=integrator,
-        progress=progress,
-        control=request.control,
+    every: seconds of wall clock between checkpoints.
+    """
+    from ..control import augmentation
+    from ..flight import Flying
+    from ..flight_folder import RunFolder
+    from ..flight_input import Asked, FlightInput, Plan
+    from ..inflow import trim_model
+
+    asked = Asked(request.condition, trim_model(request.inflow))
+    maneuver = request.maneuver
+    control = augmentation(maneuver.control if request.control is None else request.control)
+    plan = Plan(
+        replace(maneuver, control=None),
+        request.inflow,
+        revolutions,
+        integrator,
         rotor_speed=rotor_speed,
+        control=control,
     )
-    save_flight(flight, out, progress, request.drawing)
-    if not flight.finished:
-        raise NumericalFailure(flight.failure or "the flight did not finish", partial=flight)
+    given = FlightInput.of(request.aircraft, asked, plan)
+    with RunFolder(out, every) as folder:
+        note = folder.begin(given)
+        if note:
+            progress(f"note: {note}")
+
+        def flown() -> Any:
+            try:
+                start = asked.trim(request.aircraft, progress)
+                folder.keep_trim(start)
+                flying = Flying(start, given, progress)
+            except (InputError, NumericalFailure):
+                folder.abandon()
+                raise
+            return flying.go(folder)
+
+        return shown(flown, folder, progress, request.drawing)
+
+
+def shown(flown: Callable[[], Any], folder: RunFolder, progress: Progress, drawing: Drawing) -> Any:
+    """Fly in a folder, and draw what was flown, also where the flight came to a failure."""
+    try:
+        flight = flown()
+    except NumericalFailure as failure:
+        if failure.partial is not None:
+            draw(failure.partial.data, folder.saved, progress, drawing)
+        raise
+    except Interrupted as signal:
+        kept = "what was found is kept" if folder.saved is None else f"kept in {folder.saved}, incomplete"
+        said = f"{signal}: {kept}; `wakeflight resume {folder.folder}` goes on"
+        raise Interrupted(said, signal.exit_code - 128, signal.partial) from signal
+    if folder.had_ended and (folder.folder / "report.html").is_file():
+        return flight
+    draw(flight.data, folder.saved, progress, drawing)
     progress(_pace(flight.data))
     return flight
 
 
-def save_flight(flight: Any, out: Path, progress: Progress, drawing: Drawing) -> None:
-    """Write run.nc, then figures and report: the numbers are safe before anything is drawn."""
-    folder = folder_made(out)
-    flight.save(folder / "run.nc")
-    if not drawing.figures:
-        progress(f"wrote {folder / 'run.nc'}")
+def draw(data: Any, path: Path, progress: Progress, drawing: Drawing) -> None:
+    """Figures and report beside the run.nc that was written: the numbers are safe before anything is drawn."""
+    if path.name != "run.nc":
+        progress(f"wrote {path}; run.nc there is that of a flight that came to its end")
         return
-    from .. import report as reports
+    if not drawing.figures:
+        progress(f"wrote {path}")
+        return
+    try:
+        from .. import report as reports
 
-    reports.write(flight.data, folder, progress=progress, figure_format=drawing.figure_format)
-    progress(f"wrote {folder / 'run.nc'}, figures and {folder / 'report.html'}")
+        reports.write(data, path.parent, progress=progress, figure_format=drawing.figure_format)
+    except WakeflightError:
+        raise
+    except Exception as reason:  # whatever a machine has against figures: the run stays
+        progress(f"wrote {path}; warning: no figures, {type(reason).__name__}: {one_line(str(reason))}")
+        return
+    progress(f"wrote {path}, figures and {path.parent / 'report.html'}")
 
 
 def save_trim(start: Any, out: Path) -> None:

@@ -138,6 +138,16 @@ def check_flight(revolutions: float | None, integrator: str, rotor_speed: str = 
         raise InputError.choice("--rotor-speed", rotor_speed, ("constant", "governed", "free"))
 
 
+def seconds_between(checkpoint: str) -> float:
+    """Seconds of wall clock between checkpoints."""
+    from ..units import quantity
+
+    seconds = quantity(checkpoint, "s", "--checkpoint")
+    if not 0.0 <= seconds <= 86400.0:
+        raise InputError.of("--checkpoint", checkpoint, "must lie between 0 s and a day")
+    return seconds
+
+
 def set_threads(threads: int | None) -> None:
     """Pass --threads, or check WAKEFLIGHT_THREADS and WAKEFLIGHT_SIMD, which the physics core reads."""
     from .._core import instruction_set

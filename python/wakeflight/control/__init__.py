@@ -7,7 +7,7 @@ from .augmentation import Augmentation, augmentation
 from .blocks import AltitudeHold, AttitudeHold, RateDamping, TurnCoordination
 from .chain import Chain
 from .controller import Controller
-from .file import from_table, load_control
+from .file import from_description, from_table, load_control
 from .follow import Follow, Hands, follow
 from .log import ControlLog
 from .pitch_bias import PitchBiasActuator
@@ -32,6 +32,7 @@ __all__ = [
     "augmentation",
     "follow",
     "from_control",
+    "from_description",
     "from_table",
     "load_control",
 ]

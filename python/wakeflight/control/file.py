@@ -76,3 +76,28 @@ def _made(key: str, kind: Any, table: Any, path: Path) -> Any:
         return kind(**table)
     except InputError as reason:
         raise InputError(f"{path}: {reason}") from None
+
+
+def from_description(told: Mapping[str, Any]) -> Augmentation:
+    """Controllers and servos again from what `Augmentation.described` told; InputError where one is a user's own."""
+    by_class = {kind.__qualname__: kind for kind in KINDS.values()}
+    controllers = []
+    for each in told["controllers"]:
+        name = each["controller"]
+        if name not in by_class:
+            allowed = f"is told by its name alone: give it again by control=; known here: {', '.join(by_class)}"
+            raise InputError.of("control", name, allowed)
+        known = inspect.signature(by_class[name]).parameters
+        controllers.append(by_class[name](**{key: value for key, value in each.items() if key in known}))
+    servos = told.get("actuators")
+    found = Augmentation(
+        tuple(controllers),
+        told.get("authority"),
+        None if servos is None else Servos(**servos),
+        tuple(told.get("scale", (1.0,) * 4)),  # type: ignore[arg-type]
+    )
+    if found.described() != dict(told):
+        raise InputError.of(
+            "control", ", ".join(by_class), "was made with more than is told of it: give it again by control="
+        )
+    return found

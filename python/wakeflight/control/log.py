@@ -14,23 +14,33 @@ from .chain import Chain
 class ControlLog:
     """Rows of a flight: the pilot's sticks, and what was added in series."""
 
-    def __init__(self, chain: Chain | None, n: int):
+    def __init__(self, chain: Chain | None):
         self.chain = chain
-        self.pilot = np.empty((n, 4))
-        self.series = np.empty((0 if chain is None else n, 4))
+        self.rows: Any = {}
 
-    def record(self, row: int, stick: np.ndarray) -> None:
-        """Keep one instant; stick (4,) [m]: what reaches the blades."""
-        if self.chain is None:
-            self.pilot[row] = stick
-        else:
-            self.pilot[row], self.series[row] = self.chain.pilot, self.chain.series
+    @property
+    def fields(self) -> dict[str, tuple[int, ...]]:
+        """What is kept of an instant: nothing where the stick goes straight to the blades."""
+        return {} if self.chain is None else {"pilot": (4,), "series": (4,)}
+
+    def bind(self, rows: Any) -> None:
+        """Arrays of the rows by name."""
+        self.rows = rows
+
+    def record(self, row: int) -> None:
+        """Keep one instant."""
+        if self.chain is not None:
+            self.rows["pilot"][row], self.rows["series"][row] = self.chain.pilot, self.chain.series
+
+    def pilot(self, n: int, reached: np.ndarray) -> np.ndarray:
+        """Sticks (n, 4) [m] where the pilot had them, of `n` rows in which `reached` reached the blades."""
+        return reached if self.chain is None else self.rows["pilot"][:n]
 
     def arrays(self, n: int, reached: np.ndarray) -> dict[str, np.ndarray]:
         """Variables of `n` rows; reached (n, 4) [m]: sticks that stand for where the blades were put."""
-        found = dict(zip(STICKS, self.pilot[:n].T / INCH, strict=True))
+        found = dict(zip(STICKS, self.pilot(n, reached).T / INCH, strict=True))
         if self.chain is not None:
-            found |= {f"sas_{name}": each for name, each in zip(STICKS, self.series[:n].T, strict=True)}
+            found |= {f"sas_{name}": each for name, each in zip(STICKS, self.rows["series"][:n].T, strict=True)}
             found |= {f"actuator_{name}": each for name, each in zip(STICKS, reached.T / INCH, strict=True)}
         return found
 

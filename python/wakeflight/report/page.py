@@ -15,6 +15,7 @@ from ..plotting import COMPARISONS, FIGURES, Plot
 from ..plotting.style import save
 from ..progress import Progress, Reported, Silent, heard
 from ..results import by_name
+from ..results import drawn as drawn_there
 from . import viewer
 from .summary import Row, configuration, counters, physics, summary, trim_table, warnings, watched
 
@@ -57,9 +58,10 @@ def write(
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    figures, missed = _figures(
-        COMPARISONS if several else FIGURES, named if several else first, out_dir, heard(progress), figure_format
-    )
+    plots = COMPARISONS if several else FIGURES
+    formats = dict.fromkeys(("png", figure_format))
+    drawn_there(out_dir, [*(f"{plot.name}.{each}" for plot in plots for each in formats), "report.html"])
+    figures, missed = _figures(plots, named if several else first, out_dir, heard(progress), figure_format)
     viewable = viewer.viewable(named)
     page = environment.get_template("report.html").render(
         title=_title(first, several),

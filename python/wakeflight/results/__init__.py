@@ -5,8 +5,9 @@ from __future__ import annotations
 
 from .attributes import flat_attributes
 from .dataset import assemble, assemble_loop, assemble_transient, assemble_trim, assemble_tunnel
+from .derived import drawn, forget_drawn
 from .errors import ResultsError
-from .files import by_name, load, save
+from .files import by_name, finished, load, save
 
 __all__ = [
     "ResultsError",
@@ -16,7 +17,10 @@ __all__ = [
     "assemble_trim",
     "assemble_tunnel",
     "by_name",
+    "drawn",
+    "finished",
     "flat_attributes",
+    "forget_drawn",
     "load",
     "save",
 ]

@@ -103,6 +103,17 @@ def load(path: str | Path, kind: str | None = None) -> xr.Dataset:
     return of_kind(opened(Path(path)), Path(path), kind)
 
 
+def finished(path: Path) -> bool:
+    """Whether there is a result that came to its end."""
+    import xarray as xr
+
+    try:
+        with xr.open_dataset(path, engine="h5netcdf") as data:
+            return bool(data.attrs.get("finished", 0))
+    except (OSError, ValueError, KeyError):
+        return False
+
+
 def by_name(runs: xr.Dataset | Mapping[str, xr.Dataset], single: str | None = None) -> dict[str, xr.Dataset]:
     """Runs by name; a single one (a Dataset is a mapping too) goes by the name `single`, or by its inflow model."""
     import xarray as xr

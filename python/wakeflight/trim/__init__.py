@@ -60,11 +60,17 @@ def trim(
     started = time.perf_counter()
     n_harmonics = whole("n_harmonics", n_harmonics, 0, MOST_HARMONICS)
     control_tolerance = number("control_tolerance", control_tolerance, *CONTROL_TOLERANCES)
-    condition = condition_for(aircraft, condition)
+    condition = asked_for = condition_for(aircraft, condition)
     chosen = inflow_model(inflow)
     chosen.step(aircraft)
     asked = target(condition, power, collective, free)
     progress.phase("trim", None)
+
+    def told(found: Solution) -> Trim:
+        """The trim with what was found of the path in its condition, what was asked, and the seconds it took."""
+        seconds = time.perf_counter() - started
+        own = {"model": found.model.flown(found.problem, found.x), "seconds": seconds}
+        return physical(Trim(**vars(found) | own, asked=asked_for, control_tolerance=control_tolerance))
 
     # dynamic inflow first: the result itself, or the start of the free wake
     dynamic = chosen if chosen.is_dynamic else DynamicInflow(n_stations=chosen.n_stations)
@@ -74,7 +80,7 @@ def trim(
     condition = simple.condition
     progress.advance(1, "dynamic inflow")
     if chosen.is_dynamic:
-        return physical(_timed(Solution(simple, problem, x, *dynamic_map(simple, problem, x)), started))
+        return told(Solution(simple, problem, x, *dynamic_map(simple, problem, x)))
 
     model = Model.build(aircraft, condition, trim_model(chosen), asked, n_harmonics)
     inflow_map, _ = dynamic_map(simple, problem, x, model.steps_per_revolution)
@@ -85,13 +91,7 @@ def trim(
     if chosen.is_marching:
         model = Model.build(aircraft, condition, chosen, asked, n_harmonics)
         found = on_marching(model, found, progress, control_tolerance)
-    return physical(_timed(found, started))
-
-
-def _timed(found: Solution, started: float) -> Trim:
-    """The trim with what was found of the path in its condition, and the seconds it took."""
-    flown = found.model.flown(found.problem, found.x)
-    return Trim(**vars(found) | {"model": flown, "seconds": time.perf_counter() - started})
+    return told(found)
 
 
 def physical(found: Trim) -> Trim:

@@ -18,6 +18,7 @@ from ..units import STANDARD_GRAVITY
 from .equations import INCH, residual_norms
 from .on_wake import Solution
 from .revolution import inputs, instants
+from .wake import CONTROL_TOLERANCE
 
 PITCH_CONTROLS = ("theta_1c", "theta_1s", "theta_0", "theta_tr")
 
@@ -29,6 +30,10 @@ class Solved(Solution):
     model: Model
     seconds: float = 0.0
     """Wall clock of the trim."""
+    asked: FlightCondition | None = None
+    """The condition as it was asked for, before what was left free of its path was found."""
+    control_tolerance: float = CONTROL_TOLERANCE
+    """Change of a pitch control [rad] at which it rested."""
 
     def __getstate__(self) -> dict[str, Any]:
         """The equations by value; monitors are found again."""

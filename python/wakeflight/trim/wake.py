@@ -37,6 +37,15 @@ class WakeInTrim:
         self.psi = 2 * np.pi * np.arange(self.n) / self.n
         self.counters = dict.fromkeys(("relaxation_iterations", "circulation_followed", "wake_segment_evaluations"), 0)
 
+    @classmethod
+    def unpacked(cls, model: CompiledRotor, core: _core.SteadyWake, counters: dict[str, int]) -> WakeInTrim:
+        """The wake of `model` again, from the core's state."""
+        wake = cls.__new__(cls)
+        wake.model, wake.core, wake.counters = model, core, dict(counters)
+        wake.n = model.steps_per_revolution
+        wake.psi = 2 * np.pi * np.arange(wake.n) / wake.n
+        return wake
+
     def __getstate__(self) -> dict[str, Any]:
         """The core's state by value."""
         return self.__dict__ | {"core": self.core.to_bytes()}
