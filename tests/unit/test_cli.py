@@ -47,6 +47,7 @@ def _nothing_starts(monkeypatch):
         ([*FLY, "--weight", "500 lbf"], "blades"),
         (["fly", "no-such-manoeuvre"], "no-such-manoeuvre"),
         ([*FLY, "--aircraft", "/nowhere.toml"], "/nowhere.toml"),
+        ([*FLY, "--control", "/nowhere.toml"], "control = '/nowhere.toml': no such file"),
         ([*FLY, "--loading", "empty"], "loading"),
         ([*FLY, "--condition", "nowhere"], "condition"),
         ([*FLY, "--inflow", "magic"], "inflow"),
@@ -139,6 +140,24 @@ def test_bad_input_is_one_line_and_exit_code_2(capsys, arguments, named):
     assert out == ""
     assert err.count("\n") == 1
     assert named in err
+
+
+def test_controllers_are_read_and_checked_before_anything_starts(capsys, monkeypatch, tmp_path):
+    path = tmp_path / "sas.toml"
+    for text, named in (
+        ("[control.rate_damping]\nroll = '2'\n", "RateDamping.roll = '2'"),
+        ("[control.damper]\nroll = '2'\n", "control.damper"),
+        ("[control.pitch_bias_actuator]\n", "PitchBiasActuator = 'BO-105'"),
+    ):
+        path.write_text(text)
+        code, _, err = _run(capsys, [*FLY, "--aircraft", "bo105", "--control", str(path)])
+        assert code == 2 and named in err and err.count("\n") == 1
+    asked = []
+    monkeypatch.setattr(outcome, "fly_once", lambda request, *_rest: asked.append(request.control))
+    path.write_text("[control.rate_damping]\nroll = '2 in/(rad/s)'\n")
+    for given in ([], ["--control", "none"], ["--control", str(path)]):
+        _run(capsys, [*FLY, "--inflow", "dynamic", "--out", str(tmp_path), *given])
+    assert asked[0] is None and asked[1].nothing and len(asked[2].controllers) == 1
 
 
 def test_a_manoeuvre_before_zero_is_refused(capsys, tmp_path):

@@ -99,6 +99,7 @@ def request(
     if flown is not None:
         flown = flown.for_aircraft(loaded.stick_travel_in, float(loaded.rotor.omega))
         flown.check_span(loaded.stick_travel_in)
+        (flown.control or Augmentation() if made is None else made).check_on(loaded)
     folder = writable(
         run.out if run.out is not None else Path("runs") / slug(flown.name if flown is not None else "run")
     )

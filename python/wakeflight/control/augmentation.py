@@ -40,6 +40,11 @@ class Augmentation:
         """Whether the stick is left as it is."""
         return not self.controllers and self.actuators is None
 
+    def check_on(self, aircraft: Any) -> None:
+        """Refuse an aircraft that lacks what a member needs."""
+        for each in self.controllers:
+            each.check_on(aircraft)
+
     def described(self) -> dict[str, Any]:
         """What it is, for results and snapshots."""
         found: dict[str, Any] = {"controllers": [each.described() for each in self.controllers]}

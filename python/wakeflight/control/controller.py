@@ -88,6 +88,9 @@ class Controller:
         """What messages call it."""
         return type(self).__qualname__
 
+    def check_on(self, aircraft: Any) -> None:
+        """Refuse an aircraft that lacks what it needs."""
+
     def check(self) -> float | None:
         """Refuse declarations that cannot be; how often it is called [1/s], None for every coupling step."""
         if self.acts not in ACTS:

@@ -34,10 +34,14 @@ class PitchBiasActuator(Controller):
 
     def reset(self, start: Start) -> None:
         """Settled at the first call."""
+        self.check_on(start.aircraft)
         law = start.aircraft.pitch_bias_actuator
-        if law is None:
-            raise InputError.of(self.name, start.aircraft.name, "its file has no [rigging.pitch_bias_actuator]")
         self.law, self.travel, self.t, self.limited = dict(law), start.aircraft.stick_travel_in[1], None, False
+
+    def check_on(self, aircraft: Any) -> None:
+        """Refuse an aircraft whose file has none."""
+        if aircraft.pitch_bias_actuator is None:
+            raise InputError.of(self.name, aircraft.name, "its file has no [rigging.pitch_bias_actuator]")
 
     def command(self, sensors: Sensors) -> float:
         """Share of the longitudinal travel asked for."""
