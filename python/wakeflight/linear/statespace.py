@@ -255,9 +255,8 @@ class LinearModel:
                 raise InputError.of("order", order, f"must lie between 1 and {len(names)}")
             kept = kept_states(order, names)
             if kept is None:
-                judged = np.array(
-                    [i for i, (name, _) in enumerate(self.outputs) if name in names[:8]] or range(len(self.outputs))
-                )
+                on_axis = [i for i, (name, _) in enumerate(self.outputs) if name in {y for _, y in ON_AXIS}]
+                judged = np.array(on_axis or range(len(self.outputs)))
                 return self._with(
                     balanced(self.matrices, order, judged), tuple((f"balanced_{i}", NO_UNIT) for i in range(order))
                 )
