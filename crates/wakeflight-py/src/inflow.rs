@@ -2,8 +2,8 @@
 
 use crate::checks::invalid;
 use pyo3::prelude::*;
-use wakeflight::inflow::descent;
-use wakeflight::inflow::pitt_peters::{self, DiskCondition, PittPeters};
+use wakeflight::inflow::pitt_peters::{DiskCondition, PittPeters};
+use wakeflight::inflow::{descent, momentum};
 
 /// Rates (lambda_0, lambda_s, lambda_c) [1/s] of Pitt-Peters inflow at `omega` [rad/s].
 ///
@@ -26,7 +26,7 @@ pub fn pitt_peters_rate(
 /// several values the one continued from hover.
 #[pyfunction]
 pub fn momentum_inflow(ct: f64, mu_squared: f64, mu_z: f64) -> f64 {
-    pitt_peters::momentum_inflow(ct, mu_squared, mu_z)
+    momentum::momentum_inflow(ct, mu_squared, mu_z)
 }
 
 /// Mean induced inflow that dynamic inflow takes: momentum theory, in descent the curve of tests.

@@ -7,7 +7,7 @@ use mechanics_support::beam_support::uh60a;
 use mechanics_support::*;
 use wakeflight::blade::hub_motion as blade;
 use wakeflight::blade::kinematics::ModalMotion;
-use wakeflight::inflow::pitt_peters::momentum_inflow;
+use wakeflight::inflow::momentum::momentum_inflow;
 use wakeflight::rotor::circulation::BladeInstant;
 use wakeflight::rotor::exchange::{MarchingExchange, Place, SteadyWake, azimuth, row};
 use wakeflight::system::model::System;

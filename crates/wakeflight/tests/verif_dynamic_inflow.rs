@@ -1,7 +1,8 @@
 //! Pitt-Peters matrices, gains and eigenvalues (data file D02_pitt_peters.toml) and transients (D03_inflow_steps.toml).
 
 use std::f64::consts::PI;
-use wakeflight::inflow::pitt_peters::{ApparentMass, DiskCondition, MassFlow, PittPeters, momentum_inflow};
+use wakeflight::inflow::momentum::momentum_inflow;
+use wakeflight::inflow::pitt_peters::{ApparentMass, DiskCondition, MassFlow, PittPeters};
 use wakeflight::numerics::scalar::{Dual, Real};
 
 fn disk<S: Real>(ct: f64, mu: f64, mu_z: f64) -> DiskCondition<S> {

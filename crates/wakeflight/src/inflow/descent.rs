@@ -12,6 +12,7 @@
 //! ASSUMPTION: s = (1 - mu^2/v_h^2)^2, none from mu = v_h on: a wind across the disk faster than v_h carries the wake away,
 //! which is where tests find the vortex ring to end (0.9 to 1.3 v_h).
 
+use super::momentum::momentum_inflow;
 use crate::numerics::scalar::Real;
 use std::sync::LazyLock;
 
@@ -110,7 +111,7 @@ pub fn descent_inflow<S: Real>(ct: S, mu_squared: S, mu_z: S) -> S {
     }
     let slow = mu_squared.re() < 0.5 * ct.re();
     if !(slow && mu_z.re() > 0.0) {
-        return super::pitt_peters::momentum_inflow(ct, mu_squared, mu_z);
+        return momentum_inflow(ct, mu_squared, mu_z);
     }
     let root = root(ct.re(), mu_squared.re(), mu_z.re());
     let mean = S::cst(root);
@@ -160,7 +161,6 @@ fn root(ct: f64, mu_squared: f64, mu_z: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::pitt_peters::momentum_inflow;
     use super::*;
     use crate::numerics::scalar::Dual;
 

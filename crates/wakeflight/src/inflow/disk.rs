@@ -1,6 +1,6 @@
 //! Means over the rotor disk, with the one area weight that belongs to blade stations, and the momentum of a circulation.
 
-use super::pitt_peters::momentum_inflow;
+use super::momentum::momentum_inflow;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, TAU};
 
