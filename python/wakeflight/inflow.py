@@ -64,18 +64,16 @@ class Inflow:
     """Whether the wake marches in time with the flight."""
 
     azimuth_step: Any
-    unsteady: Any = "quasi-steady"
-    yawed_drag: Any = False
 
     @property
     def sections(self) -> dict[str, Any]:
         """What it says of the sections of the blades."""
-        return {"unsteady": self.unsteady, "yawed_drag": self.yawed_drag}
+        return {name: getattr(self, name) for name in ("unsteady", "yawed_drag") if name in options_of(self.name)}
 
     @property
     def remembers(self) -> bool:
         """Whether blade sections have states of their own."""
-        return self.unsteady != "quasi-steady"
+        return self.sections.get("unsteady", "quasi-steady") != "quasi-steady"
 
     @property
     def is_full_span(self) -> bool:

@@ -191,7 +191,6 @@ impl PyExchange {
     #[pyo3(signature = (core, step, y, sticks, motion=None, flown=None))]
     fn advance(
         &mut self,
-        py: Python<'_>,
         core: &PySystem,
         step: usize,
         y: Row,
@@ -222,7 +221,7 @@ impl PyExchange {
         let steady_pitch = &if renewed { system.steady_pitch(n, controls.stick) } else { Vec::new() };
         let elapsed = flown.map_or_else(|| system.main().nominal_step(n), |(end, begun, _)| end - begun);
         let reached = Reached { place: core.place(&hub), blades, steady_pitch, elapsed };
-        py.detach(|| self.inner.advance(step, &reached)).map_err(py_error)
+        y.py().detach(|| self.inner.advance(step, &reached)).map_err(py_error)
     }
 
     /// A revolution of a marching wake with hub motion `y`, sticks and a periodic blade motion (n_azimuths, n_modes) held: inflow

@@ -55,21 +55,30 @@ pub struct SectionAir<S> {
 }
 
 impl<S: Real> SectionAir<S> {
-    /// Turns the drag along the whole `wind`, relative to the point of the elastic axis, instead of its part normal to the span: of
-    /// a section in yawed flow the boundary layer goes with the air, lift is that of the flow normal to the span.
+    /// Turns the drag of the table along the whole `wind`, relative to the point of the elastic axis, instead of its part normal to
+    /// the span: of a section in yawed flow the boundary layer goes with the air and meets the section at a smaller angle of attack,
+    /// whose drag the table has; lift is that of the flow normal to the span.
     pub(super) fn turn_drag(
         &mut self,
+        airfoil: &Airfoil,
         air: &Air,
         station: &StationGeometry,
         motion: &SectionMotion<S>,
         wind: Vec3<S, BladeAxes>,
     ) {
         let (c, n, t) = (motion.c, motion.n, motion.t);
-        let along = wind.dot(t);
+        let (along, chordwise) = (wind.dot(t), wind.dot(c));
         let whole = (self.speed * self.speed + along * along).sqrt();
-        let drag = self.cd * (0.5 * air.density * station.chord * station.width);
-        let normal = c * wind.dot(c) + n * wind.dot(n);
-        let more = normal * (drag * (whole - self.speed)) + t * (drag * whole * along);
+        // the small constant keeps the ratio finite where the air comes along the span alone
+        let (of_chord, of_span) = (chordwise * chordwise + 1e-12, along * along);
+        let (sin, cos) = self.alpha.sin_cos();
+        let yawed = sin.atan2(cos * ((of_chord + of_span) / of_chord).sqrt());
+        let (_, cd_yawed, _) = airfoil.coefficients(yawed, self.mach);
+        let (_, cd, _) = airfoil.coefficients(self.alpha, self.mach);
+        let normal = c * chordwise + n * wind.dot(n);
+        let strength = cd_yawed * whole;
+        let more = (normal * (strength - cd * self.speed) + t * (strength * along))
+            * S::cst(0.5 * air.density * station.chord * station.width);
         self.force += more;
         self.moment += c.cross(more) * S::cst(station.quarter);
     }

@@ -272,7 +272,7 @@ impl Blade {
             (Some((law, behind)), _) => law.air(airfoil, air, geometry, &m, [wind, behind], omega),
         };
         if environment.yawed_drag {
-            found.turn_drag(air, geometry, &m, wind);
+            found.turn_drag(airfoil, air, geometry, &m, wind);
         }
         (m, found)
     }

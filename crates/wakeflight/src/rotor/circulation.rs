@@ -273,8 +273,8 @@ impl Rotor {
         )
     }
 
-    /// Circulation and near wake of several blade instants for held far inflow; `lambda_far` and `start` row by row, as the
-    /// memory of sections in a periodic motion.
+    /// Circulation and near wake of a blade at every azimuth for held far inflow; `lambda_far` and `start` row by row, as the
+    /// memory of sections that remember.
     pub fn circulations(
         &self,
         air: Air,
@@ -286,12 +286,20 @@ impl Rotor {
     ) -> Result<Circulations, WakeError> {
         let n = self.blade.stations.len();
         let wake_hub = WakeHub { velocity: hub.velocity.array(), rates: hub.omega.array() };
+        let by_steps = self.sections.as_ref().is_some_and(|law| law.model.answers_at_once());
+        let n_azimuths = instants.len();
         let mut all = Circulations::default();
         for (i, blade) in instants.iter().enumerate() {
             let (flap, lead) = self.equivalent_angles(&blade.modal);
             let near = self.near_wake(options, &wake_hub, &BladeState { psi: blade.psi, flap, lead })?;
             let row = i * n..(i + 1) * n;
-            let known = BladeInTime { instant: blade, past: memory.periodic(i) };
+            let past = if by_steps {
+                // where separation is steep its lag, held, would lead the circulation astray
+                memory.step((i + n_azimuths - 1) % n_azimuths, self.nominal_step(n_azimuths))
+            } else {
+                memory.periodic(i)
+            };
+            let known = BladeInTime { instant: blade, past };
             let solution =
                 self.blade_circulation(air, hub, known, &lambda_far[row.clone()], &near, &start[row])?;
             let solution = self.solved(solution, i, blade.psi)?;

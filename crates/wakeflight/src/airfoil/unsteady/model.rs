@@ -87,6 +87,12 @@ impl Model {
         of_law!(self, law => sources_of(law))
     }
 
+    /// Whether at least half of a change of lift comes at once. Of such a model the rest can be taken from the iteration before:
+    /// however strong the near wake, what it takes off that rest is less than what is there.
+    pub fn answers_at_once(self) -> bool {
+        !matches!(self, Self::Attached)
+    }
+
     /// Rates of the states.
     pub fn rates<S: Real>(self, section: &Section, flow: &Flow<S>, states: &States<S>) -> States<S> {
         of_law!(self, law => rates(law, section, flow, states))
