@@ -25,8 +25,8 @@ class Inputs:
         mean_inflow: float,
         stabilator_incidence: float,
         vacuum: bool = False,
-        engine: tuple[float, float] = (0.0, 1.0),
     ) -> Inputs: ...
+    def driven(self, torque: float, fuel: float) -> Inputs: ...
     def remembering(self, sections: SectionMemory, begun: float) -> Inputs: ...
 
 @final

@@ -45,8 +45,8 @@ class Stepping:
     """
 
     stabilator = "held"
-    _engine = (0.0, 1.0)
-    """Torque of the engines [N m] and share of the fuel over the step that begins."""
+    _engine: tuple[float, float] | None = None
+    """Torque of the engines [N m] and share of the fuel over the step that begins, where the speed of the rotor is a state."""
 
     def _begin(self, model: CompiledRotor, solver: Integrator, y: np.ndarray, stick: np.ndarray, step: int = 0) -> None:
         """At the states `y` after `step` steps; the exchange comes by itself."""
@@ -139,5 +139,7 @@ class Stepping:
     def _inputs(self, t: float, stick: np.ndarray, rate: np.ndarray) -> tuple[_core.Inputs, float]:
         """Sticks from `t` on; inflow, memory of the sections, stabilator and engines held."""
         held, mean = self.exchange.held(self._step)
-        inputs = _core.Inputs(stick, rate, t, held, mean, self._incidence, engine=self._engine)
+        inputs = _core.Inputs(stick, rate, t, held, mean, self._incidence)
+        if self._engine is not None:
+            inputs = inputs.driven(*self._engine)
         return self.exchange.remembering(inputs, self.t), mean

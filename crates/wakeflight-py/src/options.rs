@@ -54,7 +54,7 @@ pub fn option_descriptors() -> PyResult<String> {
         MarchingOptions::descriptors(),
         AnnularOptions::descriptors(),
     ];
-    serde_json::to_string(&groups.concat()).map_err(|e| invalid(e))
+    serde_json::to_string(&groups.concat()).map_err(invalid)
 }
 
 /// Refuses options that do not go together, and with a rotor those that do not go with it.

@@ -46,10 +46,9 @@ pub struct PyInputs(pub(crate) Inputs);
 
 #[pymethods]
 impl PyInputs {
-    /// Sticks [m] and rates [m/s] at `t_start` [s]; inflow (n_blades, n_stations), None for the states of y; engine: torque without a
-    /// governor [N m] and share of the fuel with one.
+    /// Sticks [m] and rates [m/s] at `t_start` [s]; inflow (n_blades, n_stations), None for the states of y.
     #[new]
-    #[pyo3(signature = (stick, stick_rate, t_start, inflow, mean_inflow, stabilator_incidence, vacuum=false, engine=(0.0, 1.0)))]
+    #[pyo3(signature = (stick, stick_rate, t_start, inflow, mean_inflow, stabilator_incidence, vacuum=false))]
     fn new(
         stick: [f64; 4],
         stick_rate: [f64; 4],
@@ -58,7 +57,6 @@ impl PyInputs {
         mean_inflow: f64,
         stabilator_incidence: f64,
         vacuum: bool,
-        engine: (f64, f64),
     ) -> PyResult<Self> {
         let inflow = match (inflow, vacuum) {
             (_, true) => HeldInflow::Vacuum,
@@ -74,9 +72,14 @@ impl PyInputs {
             inflow: vec![inflow],
             sections: Vec::new(),
             stabilator_incidence,
-            engine: EngineInput { torque: engine.0, fuel: engine.1 },
+            engine: EngineInput::default(),
             disturbance: None,
         }))
+    }
+
+    /// The same with engines: torque of those without a governor [N m], share of the fuel of those with one.
+    fn driven(&self, torque: f64, fuel: f64) -> Self {
+        Self(Inputs { engine: EngineInput { torque, fuel }, ..self.0.clone() })
     }
 
     /// The same with the memory of sections that remember, from the begin of the coupling step at `begun` [s].
