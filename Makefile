@@ -3,6 +3,8 @@
 VENV := .venv
 BIN := $(VENV)/bin
 STAMPS := target/stamps
+# processes of the tests in Python, each on one thread
+PROCESSES ?= 2
 # one target directory and one set of flags for every use of cargo: nothing is compiled twice
 CARGO_FLAGS := --release
 export CARGO_TARGET_DIR := $(CURDIR)/target
@@ -34,7 +36,7 @@ test: $(STAMPS)/dev
 	@$(MAKE) --no-print-directory $(STAMPS)/package
 	$(BIN)/ruff check python tests validation docs/tools examples
 	$(BIN)/ruff format --check python tests validation docs/tools examples
-	$(BIN)/python -m pytest -m "not slow"
+	WAKEFLIGHT_THREADS=1 $(BIN)/python -m pytest -m "not slow" --numprocesses $(PROCESSES) --dist loadfile
 
 validate: $(STAMPS)/dev $(STAMPS)/package
 	cargo test $(CARGO_FLAGS) --package wakeflight --quiet -- --ignored

@@ -12,7 +12,8 @@ use wakeflight::blade::hub_motion::HubMotion;
 use wakeflight::blade::kinematics::{ModalMotion, PitchMotion};
 use wakeflight::blade::surroundings::BladeInflow;
 use wakeflight::numerics::frames::Vec3;
-use wakeflight::numerics::scalar::{Dual, Real};
+use wakeflight::numerics::jacobian::{Direction, dense_jacobian};
+use wakeflight::numerics::scalar::Real;
 use wakeflight::system::model::System;
 
 const N: usize = 5;
@@ -20,8 +21,8 @@ const HARMONICS: usize = 5;
 /// Mean, cosines and sines of every mode, then collective and cyclic.
 const UNKNOWNS: usize = N * (1 + 2 * HARMONICS) + 3;
 const AZIMUTHS: usize = 48;
-type D = Dual<UNKNOWNS>;
-type P = Dual<15>;
+/// Modal coordinates, their rates and accelerations.
+const MOTION: usize = 3 * N;
 
 struct Trimmed {
     aircraft: System,
@@ -79,9 +80,11 @@ impl Trimmed {
         x[UNKNOWNS - 3] = 0.25;
         let mut trimmed = Self { aircraft, mu, lambda, x };
         for _ in 0..30 {
-            let rows = trimmed.equations(weight);
-            let matrix = DMatrix::from_fn(UNKNOWNS, UNKNOWNS, |i, j| rows[i].eps[j]);
-            let step = matrix.lu().solve(&DVector::from_fn(UNKNOWNS, |i, _| rows[i].re)).unwrap();
+            let (mut rows, mut slopes) = (vec![0.0; UNKNOWNS], vec![0.0; UNKNOWNS * UNKNOWNS]);
+            trimmed.equations(trimmed.x.as_slice(), weight, &mut rows);
+            dense_jacobian(trimmed.x.as_slice(), |x, f| trimmed.equations(x, weight, f), &mut slopes);
+            let matrix = DMatrix::from_row_slice(UNKNOWNS, UNKNOWNS, &slopes);
+            let step = matrix.lu().solve(&DVector::from_vec(rows)).unwrap();
             // the kinks of the tables ask for some care
             let scale = (0.5 / step.amax().max(1e-300)).min(1.0);
             trimmed.x -= SVector::<f64, UNKNOWNS>::from_fn(|i, _| scale * step[i]);
@@ -92,15 +95,14 @@ impl Trimmed {
         panic!("no periodic motion found");
     }
 
-    fn equations(&self, weight: f64) -> Vec<D> {
+    fn equations<S: Real>(&self, x: &[S], weight: f64, rows: &mut [S]) {
         let rotor = self.aircraft.main();
-        let x: Vec<D> = (0..UNKNOWNS).map(|i| D::variable(self.x[i], i)).collect();
-        let mut rows = vec![D::zero(); UNKNOWNS];
-        let inflow = BladeInflow::Disk([D::cst(self.lambda), D::zero(), D::zero()]);
+        rows.fill(S::zero());
+        let inflow = BladeInflow::Disk([S::cst(self.lambda), S::zero(), S::zero()]);
         for l in 0..AZIMUTHS {
             let psi = TAU * l as f64 / AZIMUTHS as f64;
-            let (modal, pitch) = motion(&x, psi);
-            let loads = rotor.blade_loads(AIR, &self.hub(), D::cst(psi), &modal, &pitch, &inflow);
+            let (modal, pitch) = motion(x, psi);
+            let loads = rotor.blade_loads(AIR, &self.hub(), S::cst(psi), &modal, &pitch, &inflow);
             for i in 0..N {
                 let first = i * (1 + 2 * HARMONICS);
                 rows[first] += loads.modal[i];
@@ -115,34 +117,40 @@ impl Trimmed {
         rows[UNKNOWNS - 3] = rows[UNKNOWNS - 3] - 1.0;
         let flap = rotor.blade.flap_mode * (1 + 2 * HARMONICS);
         (rows[UNKNOWNS - 2], rows[UNKNOWNS - 1]) = (x[flap + 1], x[flap + 2]);
-        rows
     }
 
     /// d(delta q, delta q_dot)/dt = A (delta q, delta q_dot) at azimuth `psi`.
     fn matrix(&self, psi: f64, damper: bool, pitch_rate_moment: bool) -> SMatrix<f64, 10, 10> {
         let rotor = self.aircraft.main();
         let (at, control) = motion(self.x.as_slice(), psi);
-        let vary = |x: [f64; MAX_MODES], first: usize| {
-            std::array::from_fn::<P, MAX_MODES, _>(|i| {
-                if i < N { P::variable(x[i], first + i) } else { P::zero() }
-            })
-        };
-        let modal = ModalMotion { q: vary(at.q, 0), q_dot: vary(at.q_dot, 5), q_ddot: vary(at.q_ddot, 10) };
-        let pitch = PitchMotion {
-            theta: P::cst(control.theta),
-            theta_dot: P::cst(control.theta_dot),
-            theta_ddot: P::cst(control.theta_ddot),
-        };
-        let inflow = BladeInflow::Disk([P::cst(self.lambda), P::zero(), P::zero()]);
+        let motion: [f64; MOTION] = std::array::from_fn(|k| [at.q, at.q_dot, at.q_ddot][k / N][k % N]);
         let mut without = rotor.clone();
         if !damper {
             without.lag_damper = None;
         }
-        let mut rows = without.blade_loads(AIR, &self.hub(), P::cst(psi), &modal, &pitch, &inflow).modal;
-        if !pitch_rate_moment {
-            self.take_pitch_rate_moment_off(psi, &modal, &pitch, &mut rows);
-        }
-        let block = |first: usize| SMatrix::<f64, N, N>::from_fn(|i, j| rows[i].eps[first + j]);
+        let mut slopes = [0.0; MOTION * MOTION];
+        let rows = |x: &[Direction], f: &mut [Direction]| {
+            let part = |first: usize| {
+                std::array::from_fn::<Direction, MAX_MODES, _>(|i| {
+                    if i < N { x[first + i] } else { Direction::zero() }
+                })
+            };
+            let modal = ModalMotion { q: part(0), q_dot: part(N), q_ddot: part(2 * N) };
+            let cst = Direction::cst;
+            let pitch = PitchMotion {
+                theta: cst(control.theta),
+                theta_dot: cst(control.theta_dot),
+                theta_ddot: cst(control.theta_ddot),
+            };
+            let inflow = BladeInflow::Disk([cst(self.lambda), cst(0.0), cst(0.0)]);
+            let loads = without.blade_loads(AIR, &self.hub(), cst(psi), &modal, &pitch, &inflow);
+            f[..N].copy_from_slice(&loads.modal[..N]);
+            if !pitch_rate_moment {
+                self.take_pitch_rate_moment_off(psi, &modal, &pitch, f);
+            }
+        };
+        dense_jacobian(&motion, rows, &mut slopes);
+        let block = |first: usize| SMatrix::<f64, N, N>::from_fn(|i, j| slopes[i * MOTION + first + j]);
         let inverse = (-block(10)).try_inverse().unwrap();
         let (stiffness, damping) = (inverse * block(0), inverse * block(5));
         SMatrix::from_fn(|i, j| match (i < N, j < N) {
@@ -153,12 +161,12 @@ impl Trimmed {
     }
 
     /// Adds the work of +(pi/16) rho |U| c^3 (omega t), which the air loads hold with the other sign.
-    fn take_pitch_rate_moment_off(
+    fn take_pitch_rate_moment_off<S: Real>(
         &self,
         psi: f64,
-        modal: &ModalMotion<P>,
-        pitch: &PitchMotion<P>,
-        rows: &mut [P],
+        modal: &ModalMotion<S>,
+        pitch: &PitchMotion<S>,
+        rows: &mut [S],
     ) {
         let rotor = self.aircraft.main();
         let (s, c) = psi.sin_cos();

@@ -11,33 +11,33 @@ use wakeflight::blade::kinematics::ModalMotion;
 use wakeflight::blade::model::Blade;
 use wakeflight::blade::section::BladeProperties;
 use wakeflight::blade::surroundings::{BladeEnvironment, BladeInflow};
-use wakeflight::numerics::scalar::{Dual, Real};
+use wakeflight::numerics::jacobian::{Direction, dense_jacobian};
+use wakeflight::numerics::scalar::Real;
 use wakeflight::numerics::tables::Table;
 
 const N: usize = 5;
-type D = Dual<15>;
 
-/// Residual about rest: value, and derivatives by q, q_dot, q_ddot (columns 0..5, 5..10, 10..15).
-fn linearised(blade: &Blade) -> ([f64; N], [[f64; 15]; N]) {
-    let variables = |first: usize| {
-        std::array::from_fn::<D, MAX_MODES, _>(
-            |i| if i < N { D::variable(0.0, first + i) } else { D::zero() },
-        )
+/// Residual about rest at q, q_dot, q_ddot.
+fn residual<S: Real>(blade: &Blade, x: &[S], f: &mut [S]) {
+    let part = |first: usize| {
+        std::array::from_fn::<S, MAX_MODES, _>(|i| if i < N { x[first + i] } else { S::zero() })
     };
-    let modal = ModalMotion { q: variables(0), q_dot: variables(5), q_ddot: variables(10) };
+    let modal = ModalMotion { q: part(0), q_dot: part(N), q_ddot: part(2 * N) };
     let airfoils = StationAirfoils::uniform(smooth_airfoil(6.0, 0.0, 0.01, 0.0), blade.stations.len());
     let environment =
         BladeEnvironment { airfoils: &airfoils, air: AIR, rotor_speed: OMEGA, yawed_drag: false };
-    let loads = blade.loads(
-        &environment,
-        &hub_at_rest(),
-        D::zero(),
-        &modal,
-        &still(REFERENCE_PITCH),
-        &BladeInflow::Vacuum,
-    );
-    let rows = &loads.modal[..N];
-    (std::array::from_fn(|i| rows[i].re), std::array::from_fn(|i| rows[i].eps))
+    let (hub, pitch) = (hub_at_rest(), still(REFERENCE_PITCH));
+    let loads = blade.loads(&environment, &hub, S::zero(), &modal, &pitch, &BladeInflow::Vacuum);
+    f[..N].copy_from_slice(&loads.modal[..N]);
+}
+
+/// The residual, and its derivatives by q, q_dot, q_ddot (columns 0..5, 5..10, 10..15).
+fn linearised(blade: &Blade) -> ([f64; N], [[f64; 15]; N]) {
+    let (rest, mut value, mut slopes) = ([0.0; 15], [0.0; N], [0.0; 15 * 15]);
+    residual(blade, &rest, &mut value);
+    let rows = |x: &[Direction], f: &mut [Direction]| residual(blade, x, f);
+    dense_jacobian(&rest, rows, &mut slopes);
+    (value, std::array::from_fn(|i| std::array::from_fn(|j| slopes[15 * i + j])))
 }
 
 /// Largest errors of frequency, of the mass matrix, and of the stiffness off the diagonal over omega_i omega_j.

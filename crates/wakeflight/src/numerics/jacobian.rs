@@ -2,8 +2,8 @@
 
 use super::scalar::{Dual, Real};
 
-/// Derivative directions carried at once.
-const LANES: usize = 10;
+/// Derivative directions carried at once: few, because the compiler unrolls all of F for each of them.
+const LANES: usize = 4;
 
 /// Dual number of the evaluations that `dense_jacobian` asks for.
 pub type Direction = Dual<LANES>;
