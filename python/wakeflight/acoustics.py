@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .arguments import checked
 from .errors import InputError
 from .results import frames
 from .results.turns import revolutions as turns_of
@@ -43,6 +44,7 @@ class Sources:
     speed_of_sound: float
 
 
+@checked
 def noise(
     run: xr.Dataset, observers: Any, revolutions: tuple[float, float] | None = None, force: bool = False
 ) -> xr.Dataset:

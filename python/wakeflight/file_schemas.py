@@ -9,12 +9,14 @@ from __future__ import annotations
 
 from typing import Any
 
+from .arguments import checked
 from .errors import InputError
 
 KINDS = ("aircraft", "rotor", "maneuver")
 DRAFT = "https://json-schema.org/draft/2020-12/schema"
 
 
+@checked
 def file_schema(kind: str) -> dict[str, Any]:
     """JSON schema of a kind of file: `aircraft`, `rotor` or `maneuver`."""
     if kind not in KINDS:
@@ -99,11 +101,11 @@ def _renamed(
     required = [name for name in group.get("required", []) if name in properties]
     shaft: dict[str, Any] = {}
     needed: list[str] = []
-    for ours, checked in renamed.items():
-        if len(checked) > 1 or checked[0] not in properties:
+    for ours, theirs in renamed.items():
+        if len(theirs) > 1 or theirs[0] not in properties:
             continue
-        value, must = properties.pop(checked[0]), checked[0] in required
-        required = [name for name in required if name != checked[0]]
+        value, must = properties.pop(theirs[0]), theirs[0] in required
+        required = [name for name in required if name != theirs[0]]
         if len(ours) > 1:
             shaft[ours[1]] = value
             needed += [ours[1]] * must

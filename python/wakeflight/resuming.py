@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .arguments import checked
 from .control import Augmentation, augmentation
 from .errors import InputError
 from .flight import Flight, Flying
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
 
 
 @reporting
+@checked
 def resume(
     path: str | Path,
     until: Any = None,
@@ -47,6 +49,7 @@ def resume(
 
 
 @reporting
+@checked
 def branch(
     path: str | Path,
     maneuver: Maneuver,
@@ -170,6 +173,7 @@ def first_difference(a: Maneuver, b: Maneuver) -> float:
 
 
 @reporting
+@checked
 def recover(path: str | Path, progress: Reported = None) -> Path:
     """Make `run.nc` of the log of a flight that died, up to its last whole row; it can still be gone on with.
 
@@ -183,6 +187,7 @@ def recover(path: str | Path, progress: Reported = None) -> Path:
         return folder.save(flight.data, ended=False)
 
 
+@checked
 def open_run(path: str | Path) -> xr.Dataset:
     """The run in a folder as far as it has been flown: that of a flight that goes on, or that died, or its result.
 
@@ -240,6 +245,7 @@ class Comparison:
 
 
 @reporting
+@checked
 def rerun(path: str | Path, progress: Reported = None, control: Any = None) -> Comparison:
     """Fly the input that a run's file carries once more and compare, bit by bit; control: as for `resume`."""
     progress = heard(progress)

@@ -151,7 +151,7 @@ def test_a_figure_that_cannot_be_drawn_stops_itself_alone(tmp_path, run, monkeyp
     monkeypatch.setattr(report.page, "FIGURES", (broken, *plots[1:3]))
     page = report.write(run, tmp_path).read_text()
     assert "figure sticks could not be drawn: RuntimeError: no such &lt;font&gt;" in page
-    assert names(tmp_path) == ["body-states.png", "forces-moments.png", "report.html"]
+    assert names(tmp_path) == [".drawn", "body-states.png", "forces-moments.png", "report.html"]
 
 
 def test_errors_are_one_family():

@@ -186,7 +186,7 @@ def test_descent_in_the_vortex_ring_range_is_told(descent, across, ct, told):
     by_momentum, by_wake = (rotor.axial_flow(across * hover, descent * hover, ct, each) for each in (True, False))
     assert (by_momentum.warning is not None) == told and (by_wake.warning is not None) == told
     if told:
-        assert "no result" in by_momentum.warning and "0.90 times" in by_momentum.warning
+        assert "scattered tests" in by_momentum.warning and "0.90 times" in by_momentum.warning
         assert "turns kept" in by_wake.warning
 
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """Version 2 of the aircraft format: a list of rotors; version 1 is read to the same model."""
 
+import re
 import shutil
 from importlib import resources
 from pathlib import Path
@@ -48,7 +49,9 @@ def test_a_file_of_version_1_is_the_same_model(tmp_path, name):
     assert first.core_data() == second.core_data()
     assert first.discretisation == second.discretisation
     assert first.warnings == second.warnings
-    assert first.sources() == second.sources()
+    # groups that came after version 1: the pitch-bias actuator, engines and the inertia of the drive
+    since = re.compile(r"rigging\.pitch_bias_actuator|drive\.(engine|governor|inertia|power_per)")
+    assert first.sources() == [row for row in second.sources() if not since.match(row.key)]
     assert first.limits == second.limits
 
 

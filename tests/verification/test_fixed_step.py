@@ -10,7 +10,6 @@ from wakeflight import _core
 from wakeflight.flight import Sticks
 from wakeflight.integrators import FixedIntegrator, absolute_tolerances, consistent_rate
 from wakeflight.model import resolution, setting
-from wakeflight.stepping import coupling_inputs
 
 
 @pytest.fixture(scope="module")
@@ -94,7 +93,7 @@ def test_a_coupling_step_agrees_with_an_explicit_solver_of_high_order(baseline_p
     sticks = Sticks(wf.arrested_descent(), start.stick_si)
     t0, t1 = 0.6, 0.6 + np.radians(10) / model.omega
     held = start.inflow_map[[0, 9, 18, 27]]
-    inputs = coupling_inputs(sticks, t0, held, model.disk_mean(held), start.stabilator_incidence)
+    inputs = _core.Inputs(sticks.at(t0), sticks.rate(t0), t0, held, model.disk_mean(held), start.stabilator_incidence)
     y0 = start.state(t0)
     reference = solve_ivp(
         lambda t, y: consistent_rate(model, t, y, inputs), (t0, t1), y0, method="DOP853", rtol=1e-10, atol=1e-12

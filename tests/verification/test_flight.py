@@ -8,7 +8,6 @@ from wakeflight import _core
 from wakeflight.flight import Sticks
 from wakeflight.integrators import IdaIntegrator, consistent_rate
 from wakeflight.model import Model
-from wakeflight.stepping import coupling_inputs
 
 STILL = wf.Maneuver("hands off", (("lateral", ((0.0, 0.0), (1.0, 0.0))),), seconds=1.0)
 
@@ -49,7 +48,7 @@ def test_ida_agrees_with_an_explicit_solver_of_high_order_over_a_coupling_step(b
     sticks = Sticks(wf.arrested_descent(), start.stick_si)
     t0, t1 = 0.6, 0.6 + np.radians(10) / model.omega
     held = start.inflow_map[[0, 9, 18, 27]]
-    inputs = coupling_inputs(sticks, t0, held, model.disk_mean(held), start.stabilator_incidence)
+    inputs = _core.Inputs(sticks.at(t0), sticks.rate(t0), t0, held, model.disk_mean(held), start.stabilator_incidence)
     y0 = start.state(t0)
     solver = IdaIntegrator(model, rtol=1e-8, atol_scale=1e-3)
     solver.start(t0, y0, consistent_rate(model, t0, y0, inputs))

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 import wakeflight as wf
+from wakeflight import _core
 from wakeflight.exchange import Exchange
 from wakeflight.flight import Sticks
 from wakeflight.integrators import IdaIntegrator, absolute_tolerances, consistent_rate
 from wakeflight.simulation import flight_model
-from wakeflight.stepping import coupling_inputs
 
 
 @pytest.mark.parametrize("method", ["BDF", "Radau"])
@@ -24,7 +24,7 @@ def test_ida_agrees_with_another_implicit_solver_over_a_quarter_of_a_revolution(
     sticks = Sticks(wf.arrested_descent(), start.stick_si)
     t0 = 0.6
     t1 = t0 + 0.5 * np.pi / model.omega
-    inputs = coupling_inputs(sticks, t0, None, 0.0, start.stabilator_incidence)
+    inputs = _core.Inputs(sticks.at(t0), sticks.rate(t0), t0, None, 0.0, start.stabilator_incidence)
     y0 = start.state(t0)
     y_dot0 = consistent_rate(model, t0, y0, inputs)
     solver = IdaIntegrator(model, rtol=1e-8, atol_scale=1e-3)

@@ -330,7 +330,9 @@ def test_an_instruction_set_that_does_not_exist_is_named():
     run = run_with_instructions("mmx")
     assert run.returncode != 0
     last = run.stderr.strip().splitlines()[-1]
-    assert last.startswith("ValueError: WAKEFLIGHT_SIMD = mmx: no such instruction set, allowed are scalar")
+    assert last.startswith(
+        "wakeflight.errors.InputError: WAKEFLIGHT_SIMD = mmx: no such instruction set, allowed are scalar"
+    )
 
 
 FORKING = """

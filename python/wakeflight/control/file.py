@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from ..arguments import checked
 from ..errors import InputError, one_line
 from ..text import read_toml
 from .augmentation import Augmentation
@@ -25,6 +26,7 @@ KINDS: dict[str, Any] = {
 """Blocks by the name of their table."""
 
 
+@checked
 def load_control(path: str | Path) -> Augmentation:
     """Controllers and servos of a TOML file with a table `[control]`.
 

@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 
+from ..arguments import checked
 from ..errors import InputError
 from ..sticks import STICKS
 from ..units import STANDARD_GRAVITY, number, quantity
@@ -147,6 +148,7 @@ class Follow(Controller):
         return super().described() | {"path": path, "hands": vars(self.hands)}
 
 
+@checked
 def follow(
     bank: History | None = None,
     load_factor: History | None = None,

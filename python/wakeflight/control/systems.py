@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from ..arguments import checked
 from ..errors import InputError
 from ..sticks import STICKS
 from . import gains
@@ -103,6 +104,7 @@ class LinearController(Controller):
         return super().described() | own | ({} if self.authority is None else {"authority": self.authority})
 
 
+@checked
 def from_control(
     system: Any,
     signals: Sequence[str] | None = None,

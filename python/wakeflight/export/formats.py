@@ -7,6 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ..arguments import checked
 from ..errors import InputError
 from . import matlab, older, tables, vtk, wopwop
 
@@ -32,6 +33,7 @@ FORMATS: dict[str, tuple[str, Callable[[xr.Dataset, Path], Path]]] = {
 """What each format is for, and what writes it into a folder."""
 
 
+@checked
 def export(data: xr.Dataset, folder: str | Path, to: str = "vtk") -> Path:
     """Write a result for another program into `folder`; returns the file to open.
 

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..acoustics import Sources, sources
+from ..arguments import checked
 from ..errors import InputError
 from ..results import frames
 
@@ -28,6 +29,7 @@ LOADING_VECTOR, GROUND = 2, 1
 COMMENT = "wakeflight: lifting lines at the quarter chord, ground axes x north y west z up, SI"
 
 
+@checked
 def export_wopwop(
     run: xr.Dataset,
     folder: str | Path,

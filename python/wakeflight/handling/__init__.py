@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..arguments import checked
 from ..errors import InputError
 from ..linear import LinearModel
 from ..linear.response import harmonic_response, time_response
@@ -106,6 +107,7 @@ def limits() -> dict[str, Any]:
     return tomllib.loads((resources.files(__package__) / "limits.toml").read_text())
 
 
+@checked
 def handling_qualities(model: LinearModel) -> HandlingQualities:
     """Metrics of a linear model with the four sticks as inputs."""
     import xarray as xr

@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from ..arguments import checked
 from ..errors import InputError
 from ..results import flat_attributes
 from ..trim import Trim
@@ -21,6 +22,7 @@ from .wake import check_wake
 __all__ = ["LinearModel", "Linearized", "linearize"]
 
 
+@checked
 def linearize(
     start: Trim,
     inputs: Sequence[str] = STICKS,
