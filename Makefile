@@ -5,7 +5,8 @@ BIN := $(VENV)/bin
 STAMPS := target/stamps
 # processes of the tests in Python, each on one thread
 PROCESSES ?= 2
-# one target directory and one set of flags for every use of cargo: nothing is compiled twice
+# one target directory, one set of flags and one set of features (that of the workspace) for every use of cargo: nothing is
+# compiled twice
 CARGO_FLAGS := --release
 export CARGO_TARGET_DIR := $(CURDIR)/target
 export PATH := $(PATH):$(HOME)/.cargo/bin
@@ -32,14 +33,14 @@ fly: $(STAMPS)/package
 test: $(STAMPS)/dev
 	cargo fmt --all --check
 	cargo clippy $(CARGO_FLAGS) --workspace --all-targets --quiet -- -D warnings -D missing_docs
-	cargo test $(CARGO_FLAGS) --package wakeflight --quiet
+	cargo test $(CARGO_FLAGS) --workspace --quiet
 	@$(MAKE) --no-print-directory $(STAMPS)/package
 	$(BIN)/ruff check python tests validation docs/tools examples
 	$(BIN)/ruff format --check python tests validation docs/tools examples
 	WAKEFLIGHT_THREADS=1 $(BIN)/python -m pytest -m "not slow" --numprocesses $(PROCESSES) --dist loadfile
 
 validate: $(STAMPS)/dev $(STAMPS)/package
-	cargo test $(CARGO_FLAGS) --package wakeflight --quiet -- --ignored
+	cargo test $(CARGO_FLAGS) --workspace --quiet -- --ignored
 	$(BIN)/python -m pytest -m slow
 	$(BIN)/wakeflight validate
 
