@@ -373,7 +373,7 @@ def test_a_speed_is_followed_at_a_climb_rate(level):
     [
         ({}, "at least one of bank, load_factor"),
         ({"bank": [("0 s", 10.0)]}, "bank = 10.0"),
-        ({"bank": "45 deg"}, "pairs of time and value"),
+        ({"bank": "45 deg"}, "bank = '45 deg': must be a list"),
         ({"bank": [("1 s", "0 deg"), ("1 s", "5 deg")]}, "bank time = '1 s': must ascend"),
         ({"load_factor": [("0 s", "1 g")]}, "load_factor"),
         ({"load_factor": [("0 s", 1.0)], "speed": [("0 s", "80 kt")]}, "one of them"),
