@@ -19,7 +19,9 @@ from wakeflight.aircraft.airfoils import analytic_polar, extended
 from wakeflight.aircraft.c81 import read_c81
 from wakeflight.text import lines_of, plain_number, read_toml, slug
 
-settings.register_profile("short", max_examples=60, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+settings.register_profile(
+    "short", max_examples=60, deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow]
+)
 settings.load_profile("short")
 
 finite = st.floats(allow_nan=False, allow_infinity=False, width=64)
@@ -242,15 +244,22 @@ def test_induced_velocity_turns_and_moves_with_its_filament(nodes, at, shift, an
     assert there == pytest.approx(here @ turn.T, abs=1e-6 + scale)
 
 
-@given(st.lists(points, min_size=2, max_size=6), points, st.floats(-1e3, 1e3))
+# strengths whose products stay normal numbers: below 2e-308 there is no relative accuracy
+strengths = st.floats(-1e3, 1e3).filter(lambda strength: strength == 0.0 or abs(strength) > 1e-200)
+
+
+@given(st.lists(points, min_size=2, max_size=6), points, strengths)
 def test_induced_velocity_is_linear_and_changes_sign_with_the_order_of_the_nodes(nodes, at, strength):
+    # a distance from the line that is rounding of the coordinates has no accuracy to ask for
+    size = np.abs([*nodes, at]).max()
+    for begin, end in pairwise(np.array(nodes)):
+        area = np.linalg.norm(np.cross(np.array(at) - begin, end - begin))
+        assume(area == 0.0 or area > 1e-6 * size * np.linalg.norm(end - begin))
     one = velocity([at], nodes, 1.0)
     # parts that cancel leave their rounding
     parts = sum(np.abs(velocity([at], pair, 1.0)).max() for pair in pairwise(nodes))
     rounding = 1e-12 * parts + 1e-300
-    # below the least normal number (2e-308) numbers have a fixed spacing of 5e-324 and no relative accuracy
-    least = abs(strength) * rounding + 1e-320
-    assert velocity([at], nodes, strength) == pytest.approx(strength * one, rel=1e-12, abs=least)
+    assert velocity([at], nodes, strength) == pytest.approx(strength * one, rel=1e-12, abs=abs(strength) * rounding)
     assert velocity([at], nodes[::-1], 1.0) == pytest.approx(-one, rel=1e-9, abs=1e-9 * parts + 1e-300)
     # of the mirror image in y = 0 the velocity is the mirror image with the other sign
     mirror = np.array([1.0, -1.0, 1.0])
