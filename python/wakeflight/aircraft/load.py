@@ -123,17 +123,17 @@ def _one_error(path: Path, reason: ValidationError, written: Written, schema: ty
 def _of_file(raw: Any, location: list[str]) -> list[str]:
     """`location` by the keys that a file has: a group where a list is allowed stands in it without number."""
     return [
-        part for i, part in enumerate(location) if not (part.isdigit() and isinstance(_at(raw, location[:i]), dict))
+        part for i, part in enumerate(location) if not (part.isdecimal() and isinstance(_at(raw, location[:i]), dict))
     ]
 
 
 def _at(raw: Any, location: list[str]) -> Any:
     """What a file holds at `location`; an empty group where it holds nothing."""
     for part in location:
-        if isinstance(raw, list) and part.isdigit() and int(part) < len(raw):
+        if isinstance(raw, list) and part.isdecimal() and int(part) < len(raw):
             raw = raw[int(part)]
         elif isinstance(raw, dict):
-            raw = raw if part.isdigit() else raw.get(part, {})
+            raw = raw if part.isdecimal() else raw.get(part, {})
         else:
             return {}
     return raw

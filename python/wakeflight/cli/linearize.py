@@ -38,7 +38,7 @@ def linearize(
     """Linear model about a trim: print modes, derivatives and handling qualities, write linear.nc and figures."""
     run = replace(run, out=run.out or Path("runs/linearize"))
     asked = request(vehicle, given, inflow, wake, run, blades=blades)
-    if order != "full" and not order.isdigit():
+    if order != "full" and not order.isdecimal():
         raise InputError.of("--order", order, "must be a number of states, or full")
     names = tuple(name.strip() for name in inputs.split(",") if name.strip())
     from ..handling import handling_qualities, limits

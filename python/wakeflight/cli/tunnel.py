@@ -133,7 +133,7 @@ def tunnel(
 def _harmonic(text: str) -> dict[str, Any]:
     """Order, amplitude and phase of a higher-harmonic pitch from "3, 0.8 deg, 300 deg"."""
     parts = [each.strip() for each in text.split(",")]
-    if len(parts) != 3 or not parts[0].isdigit():
+    if len(parts) != 3 or not parts[0].isdecimal():
         raise InputError.of(
             "--higher-harmonic", text, 'must be order, amplitude, phase, for example "3, 0.8 deg, 300 deg"'
         )

@@ -100,8 +100,8 @@ def rotor_speed(rotor: Rotor, omega: Any, rpm: Any) -> float:
     if omega is not None and rpm is not None:
         raise InputError.of("rpm", rpm, "give either omega or rpm")
     if rpm is not None:
-        if not 0.0 < number("rpm", rpm) <= 1e5:
-            raise InputError.of("rpm", rpm, "must be a number of revolutions per minute above 0, at most 100000")
+        if not 1e-3 <= number("rpm", rpm) <= 1e5:
+            raise InputError.of("rpm", rpm, "must be a number of revolutions per minute from 0.001 to 100000")
         return float(rpm) * math.pi / 30.0
     if omega is not None:
         return within("omega", omega, "rad/s", 1e-3, 1e4, "rad/s")
