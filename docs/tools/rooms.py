@@ -45,7 +45,7 @@ ROOMS = {
         "sticks",
     ),
     "results": ("results",),
-    "basics": ("errors", "arguments", "atomic", "interruption", "text", "references", "progress", "views"),
+    "basics": ("errors", "attitude", "arguments", "atomic", "interruption", "text", "references", "progress", "views"),
 }
 """Rooms of Python and the modules in them; a module that is in none is a room of its own."""
 

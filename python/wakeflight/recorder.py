@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
+from .attitude import euler_angles
 from .control import ControlLog
 from .errors import NumericalFailure
 from .maneuvers import Maneuver
@@ -397,12 +398,3 @@ def convergence_attributes(phase: ConvergencePhase) -> dict[str, Any]:
         "segment_evaluations_convergence": phase.segment_evaluations,
         "convergence_lift_drift": phase.circulation_lift[-1] / phase.circulation_lift[0] - 1.0,
     }
-
-
-def euler_angles(quaternion: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Roll, pitch, yaw (3-2-1) [rad] of quaternions (n, 4), body to inertial; roll and yaw without jumps."""
-    w, x, y, z = (quaternion / np.linalg.norm(quaternion, axis=1, keepdims=True)).T
-    roll = np.arctan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y))
-    pitch = np.arcsin(np.clip(2 * (w * y - z * x), -1, 1))
-    yaw = np.arctan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
-    return np.unwrap(roll), pitch, np.unwrap(yaw)

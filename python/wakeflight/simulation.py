@@ -20,6 +20,7 @@ from typing import Any
 import numpy as np
 
 from .arguments import checked
+from .attitude import euler_angles
 from .control import Augmentation, Chain, Sensors, augmentation
 from .engine import Engine, Turning, turning
 from .errors import InputError, NumericalFailure
@@ -183,13 +184,10 @@ class Simulation(Stepping):
     def state(self) -> State:
         """The states by name."""
         y = self.y
-        w, x, i, z = y[6:10] / np.linalg.norm(y[6:10])
-        roll = np.arctan2(2 * (w * x + i * z), 1 - 2 * (x * x + i * i))
-        pitch = np.arcsin(np.clip(2 * (w * i - z * x), -1, 1))
-        yaw = np.arctan2(2 * (w * z + x * i), 1 - 2 * (i * i + z * z))
+        angles = np.concatenate(euler_angles(y[None, 6:10]))
         about_trim = (self._hands - self._asked(None)) / INCH
         stick = dict(zip(STICKS, about_trim.tolist(), strict=True))
-        return State(self.t, y, y[:3], y[3:6], np.array([roll, pitch, yaw]), y[10:13], stick)
+        return State(self.t, y, y[:3], y[3:6], angles, y[10:13], stick)
 
     @property
     def loads(self) -> dict[str, Any]:

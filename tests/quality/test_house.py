@@ -37,7 +37,7 @@ PYTHON_ORDER = (
     {"atomic", "interruption"},
     {"arguments", "text"},
     {"results", "regime", "views"},
-    {"units", "references", "vortex", "progress", "limits", "sticks", "runlog"},
+    {"units", "references", "vortex", "progress", "limits", "sticks", "runlog", "attitude"},
     {"options", "control"},
     {"presets"},
     {"condition", "inflow", "maneuvers", "wing", "monitors", "snapshot", "rotor_speed"},

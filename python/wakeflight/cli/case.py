@@ -15,10 +15,10 @@ from typing import Annotated, Any
 
 import typer
 
+from ..atomic import write_text
 from ..errors import InputError
 from ..text import read_toml
 from .export import FORMATS, export_to
-from .outcome import folder_made
 from .request import writable
 
 COMMANDS = {"fly": "run.nc", "compare": None, "trim": "trim.nc", "tunnel": "tunnel.nc"}
@@ -108,9 +108,7 @@ def _inflow(options: dict[str, Any], file: Path) -> Iterator[str]:
 def _own_maneuver(content: dict[str, Any], file: Path, folder: Path) -> Path:
     """The manoeuvre that stands in the case file, as a file of its own beside the results."""
     lines = [f"{json.dumps(key)} = {_toml(value)}" for key, value in {"name": file.stem, **content}.items()]
-    path = folder_made(folder) / "maneuver.toml"
-    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
-    return path
+    return write_text(folder / "maneuver.toml", "\n".join(lines) + "\n")
 
 
 def _toml(value: Any) -> str:

@@ -50,6 +50,7 @@ def linearize(
     from ..plotting import linear as drawing
     from ..plotting import style
     from ..progress import Progress
+    from ..results import save
     from ..trim import trim
 
     check_method(method)
@@ -64,7 +65,7 @@ def linearize(
     print("derivatives of eight states, 1/s, m, rad, in" if len(model.states) > 10 else "derivatives, 1/s, m, rad, in")
     print(model.derivatives_table())
     folder = folder_made(asked.out)
-    model.to_dataset().to_netcdf(folder / "linear.nc", engine="h5netcdf")
+    save(model.to_dataset(), folder / "linear.nc")
     written = ["linear.nc"]
     if not no_figures:
         style.save(drawing.modes(model.modes()), folder / "modes.png")

@@ -36,6 +36,7 @@ class Sensors:
     def __init__(self, y: np.ndarray, ground: float, rotor_speed: float, measure: Measure):
         self.u, self.v, self.w, self.p, self.q, self.r, *quaternion = y[:10].tolist()
         self.north, self.east, self.down = y[10:13].tolist()
+        # plain numbers: arrays of one attitude would take five times as long, at every step
         size = math.sqrt(sum(each * each for each in quaternion))
         a, b, c, d = (each / size for each in quaternion)
         self.roll = math.atan2(2 * (a * b + c * d), 1 - 2 * (b * b + c * c))

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..atomic import write_bytes
+
 if TYPE_CHECKING:
     import xarray as xr
 
@@ -19,8 +21,7 @@ def write(data: xr.Dataset, path: Path) -> Path:
     plain.attrs = {name.replace(".", "_"): _attribute(value) for name, value in data.attrs.items()}
     for name in plain.variables:
         plain[name].encoding = {}
-    plain.to_netcdf(path, engine="scipy", format="NETCDF3_64BIT")
-    return path
+    return write_bytes(path, plain.to_netcdf(engine="scipy", format="NETCDF3_64BIT"))
 
 
 def _attribute(value: object) -> object:

@@ -4,11 +4,14 @@
 from __future__ import annotations
 
 import csv
+import io
 import itertools
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
+
+from ..atomic import write_text
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -39,11 +42,11 @@ def _table(data: xr.Dataset, rows: tuple[str, ...], names: list[str], folder: Pa
         for parts, column in zip(itertools.product(*labels), values, strict=True):
             columns[_head(data, name, "_".join([name, *parts]))] = column
     path = folder / f"{'-'.join(rows) or 'scalars'}.csv"
-    with path.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file)
-        writer.writerow(columns)
-        writer.writerows(zip(*(values.tolist() for values in columns.values()), strict=True))
-    return path
+    text = io.StringIO(newline="")
+    writer = csv.writer(text)
+    writer.writerow(columns)
+    writer.writerows(zip(*(values.tolist() for values in columns.values()), strict=True))
+    return write_text(path, text.getvalue())
 
 
 def _head(data: xr.Dataset, name: str, shown: str | None = None) -> str:

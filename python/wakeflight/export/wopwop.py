@@ -17,6 +17,7 @@ import numpy as np
 
 from ..acoustics import Sources, sources
 from ..arguments import checked
+from ..atomic import write_bytes, write_text
 from ..errors import InputError
 from ..results import frames
 
@@ -47,7 +48,6 @@ def export_wopwop(
     if places.ndim != 2 or places.shape[1] != 3 or not np.isfinite(places).all():
         raise InputError.of("observers", observers, "must be points (n, 3) [m]: north, east, down")
     found = sources(run, revolutions, force)
-    folder.mkdir(parents=True, exist_ok=True)
     n_blades, n_stations = run.sizes["blade"], run.sizes["station"]
     shape = frames.geometry(run)
     widths = np.array(shape["widths"])
@@ -57,12 +57,11 @@ def export_wopwop(
         # any direction serves: only the length of a normal counts, the span that a node stands for
         normal = np.zeros_like(place)
         normal[..., 2] = widths
-        (folder / f"blade_{blade + 1}_geometry.dat").write_bytes(_geometry(found.time, place, normal, blade))
-        (folder / f"blade_{blade + 1}_loading.dat").write_bytes(_loading(found.time, load / widths[:, None], blade))
-    (folder / "README.txt").write_text(_readme(run, found, n_blades, n_stations), encoding="utf-8")
-    path = folder / "case.nam"
-    path.write_text(_namelist(found, shape["density"], n_blades, _ground(places)), encoding="ascii")
-    return path
+        write_bytes(folder / f"blade_{blade + 1}_geometry.dat", _geometry(found.time, place, normal, blade))
+        write_bytes(folder / f"blade_{blade + 1}_loading.dat", _loading(found.time, load / widths[:, None], blade))
+    write_text(folder / "README.txt", _readme(run, found, n_blades, n_stations))
+    names = _namelist(found, shape["density"], n_blades, _ground(places))
+    return write_text(folder / "case.nam", names, encoding="ascii")
 
 
 def _ground(earth: np.ndarray) -> np.ndarray:

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..attitude import euler_angles
 from ..errors import InputError
 from ..trim import INCH, Trim
 from .names import BODY, MOTION, Places
@@ -129,9 +130,8 @@ def attitude_slopes(quaternion: np.ndarray) -> np.ndarray:
 
 def angles(quaternion: np.ndarray) -> tuple[float, float]:
     """Roll and pitch [rad]."""
-    w, x, y, z = quaternion / np.linalg.norm(quaternion)
-    roll = np.arctan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y))
-    return float(roll), float(np.arcsin(np.clip(2 * (w * y - z * x), -1, 1)))
+    (roll,), (pitch,), _ = euler_angles(quaternion[None])
+    return float(roll), float(pitch)
 
 
 def kinematics(motion: np.ndarray, quaternion: np.ndarray) -> np.ndarray:

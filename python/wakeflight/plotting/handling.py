@@ -75,7 +75,7 @@ def attitudes(responses: xr.Dataset, data: xr.Dataset) -> Figure:
                     axes.axvline(at, color=color, lw=0.9, label=label if axes is gain else None)
         gain.set_title(f"{axis} by {STICKS[axis]}", loc="left")
         phase.set(xlabel="frequency [rad/s]", ylim=(max(-400.0, angle.min() - 10), min(200.0, angle.max() + 10)))
-    panels[0, 0].set_ylabel("gain [dB rad/in]")
+    panels[0, 0].set_ylabel("gain [dB re 1 rad/in]")
     panels[1, 0].set_ylabel("phase [deg]")
     handles = {label: h for axes in panels[0] for h, label in zip(*axes.get_legend_handles_labels(), strict=True)}
     figure.legend(handles.values(), handles.keys(), loc="outside lower center", ncols=3)

@@ -3,7 +3,7 @@
 use crate::numerics::scalar::Real;
 
 /// Square of an inflow ratio that does not matter: keeps roots differentiable where nothing moves.
-const TINY: f64 = 1e-20;
+pub(super) const TINY: f64 = 1e-20;
 
 /// Mean induced inflow of momentum theory, lambda_0 = CT/(2 sqrt(mu^2 + (lambda_0 - mu_z)^2)), down positive.
 ///

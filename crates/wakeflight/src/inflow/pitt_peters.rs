@@ -3,6 +3,7 @@
 //! lambda(r, psi) = lambda_0 + lambda_s r sin psi + lambda_c r cos psi, r = 1 at the tip, psi = 0 aft, down positive.
 
 use super::descent::{DescentFlow, descent_inflow};
+use super::momentum::TINY;
 use crate::numerics::scalar::Real;
 use serde::Deserialize;
 use std::f64::consts::PI;
@@ -64,8 +65,6 @@ pub struct DiskCondition<S> {
 const GAIN: f64 = 15.0 * PI / 64.0;
 /// Apparent mass of the cyclic states.
 const CYCLIC_MASS: f64 = 16.0 / (45.0 * PI);
-/// Square of an inflow ratio that does not matter: keeps roots differentiable where nothing moves.
-const TINY: f64 = 1e-20;
 
 impl PittPeters {
     /// Rates of (lambda_0, lambda_s, lambda_c) [1/s], hub axes, at rotor speed `omega` [rad/s].
