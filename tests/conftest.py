@@ -28,3 +28,16 @@ def baseline_paper(uh60a):
 @pytest.fixture(scope="session")
 def baseline_marching(uh60a):
     return wf.trim(uh60a, inflow="time-marching")
+
+
+@pytest.fixture(scope="session")
+def starts(uh60a):
+    """Trims on coarse wakes by kind of blades and inflow."""
+    condition = wf.FlightCondition(speed="80 kt", flight_path="-6 deg", altitude="5250 ft", weight="16000 lbf")
+    found = {}
+    for blades, aircraft in (("flexible", uh60a), ("rigid", uh60a.with_rigid_blades())):
+        found[blades, "dynamic"] = wf.trim(aircraft, condition, inflow="dynamic")
+        coarse = wf.RelaxationWake(turns=2, azimuth_step="15 deg", update_interval="90 deg")
+        found[blades, "relaxation"] = wf.trim(aircraft, condition, inflow=coarse)
+        found[blades, "time-marching"] = found[blades, "relaxation"]
+    return found

@@ -24,19 +24,6 @@ INFLOW = ("dynamic", "relaxation", "time-marching")
 REVOLUTIONS = 1.25
 
 
-@pytest.fixture(scope="module")
-def starts(uh60a):
-    """Trims on coarse wakes by kind of blades and inflow."""
-    condition = wf.FlightCondition(speed="80 kt", flight_path="-6 deg", altitude="5250 ft", weight="16000 lbf")
-    found = {}
-    for blades, aircraft in (("flexible", uh60a), ("rigid", uh60a.with_rigid_blades())):
-        found[blades, "dynamic"] = wf.trim(aircraft, condition, inflow="dynamic")
-        coarse = wf.RelaxationWake(turns=2, azimuth_step="15 deg", update_interval="90 deg")
-        found[blades, "relaxation"] = wf.trim(aircraft, condition, inflow=coarse)
-        found[blades, "time-marching"] = found[blades, "relaxation"]
-    return found
-
-
 def options(starts, inflow, blades="rigid", integrator="fixed", revolutions=REVOLUTIONS):
     start = starts[blades, inflow]
     model = start.inflow

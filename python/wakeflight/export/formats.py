@@ -37,8 +37,8 @@ FORMATS: dict[str, tuple[str, Callable[[xr.Dataset, Path], Path]]] = {
 def export(data: xr.Dataset, folder: str | Path, to: str = "vtk") -> Path:
     """Write a result for another program into `folder`; returns the file to open.
 
-    data: Dataset of a flight, a trim or a stand (`flight.data`, `start.to_dataset()`, `wakeflight.results.load(path)`). to: a name of
-    `FORMATS`: `vtk`, `mat`, `csv`, `netcdf3`, `wopwop`; `wf.export_wopwop` takes revolutions and observers too.
+    data: Dataset of a flight, a trim or a stand (`flight.data`, `start.to_dataset()`, `wakeflight.results.load(path)`).
+    to: a name of `FORMATS`: `vtk`, `mat`, `csv`, `netcdf3`, `wopwop`; `wf.export_wopwop` takes revolutions and observers too.
     """
     if to not in FORMATS:
         raise InputError.choice("to", to, FORMATS)
