@@ -70,7 +70,7 @@ def by_moments(name):
 
 
 def in_roll(name, aircraft):
-    """Mean inflow and load factor in the roll, power of the trim, seconds of the flight phase by second flown."""
+    """Mean inflow and -Z/W in the roll (the blades' weight and inertia are in Z), power of the trim, seconds of the flight."""
     start = wf.trim(aircraft, inflow=wake(wf.RelaxationWake, name))
     maneuver = wf.roll_reversal()
     began = time.perf_counter()
@@ -81,7 +81,7 @@ def in_roll(name, aircraft):
     trimmed = start.to_dataset()
     return {
         "lambda_0": at(data["inflow_mean"]),
-        "load_factor": at(-data["force_z"] / weight),
+        "thrust_over_weight": at(-data["force_z"] / weight),
         "roll_rate": at(np.degrees(data["p"])),
         "power": float(trimmed["power_main"]) / 745.7,
         "lambda_1s": float(harmonics(trimmed)[2]),

@@ -8,6 +8,7 @@ from wakeflight import _core
 from wakeflight.flight import Sticks
 from wakeflight.integrators import IdaIntegrator, consistent_rate
 from wakeflight.model import Model
+from wakeflight.report.load_factor import load_factor
 
 STILL = wf.Maneuver("hands off", (("lateral", ((0.0, 0.0), (1.0, 0.0))),), seconds=1.0)
 
@@ -143,3 +144,30 @@ def test_a_flight_without_a_convergence_phase_is_recorded(baseline_relaxation):
     wake = wf.TimeMarchingWake(convergence_revolutions=0)
     data = wf.fly(baseline_relaxation, wf.arrested_descent(), inflow=wake, revolutions=0.25).data
     assert np.all(np.isfinite(data["vortex_blade_distance"].values))
+
+
+def test_the_load_factor_of_the_report_is_what_the_sensors_show(baseline_dynamic):
+    # in a steady descent g cos theta cos phi, one per cent below 1; the loads on the airframe have the blades' weight in them
+    flight = wf.fly(baseline_dynamic, wf.arrested_descent(), inflow="dynamic", revolutions=5, integrator="fixed")
+    found = load_factor(flight.data)
+    assert found[:36].mean() == pytest.approx(np.cos(baseline_dynamic.pitch) * np.cos(baseline_dynamic.roll), abs=3e-3)
+    assert found.max() > 1.3
+    seen = []
+
+    class Watch(wf.Controller):
+        outputs = ()
+
+        def step(self, t, sensors, stick):
+            seen.append(sensors.load_factor)
+            return {}
+
+    wf.fly(
+        baseline_dynamic,
+        wf.arrested_descent(),
+        inflow="dynamic",
+        revolutions=5,
+        integrator="fixed",
+        control=Watch(),
+    )
+    steps = min(len(seen), found.size - 1)
+    assert np.abs(found[2:steps] - np.array(seen[2:steps])).max() < 0.03 * found.max()

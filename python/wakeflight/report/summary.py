@@ -13,7 +13,8 @@ from ..condition import described
 from ..plotting.disk import revolutions_flown
 from ..plotting.histories import one_revolution_mean
 from ..results.schema import ATTRIBUTES
-from ..units import STANDARD_GRAVITY, convert
+from ..units import convert
+from .load_factor import load_factor
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -40,9 +41,7 @@ class Row:
 def physics(run: xr.Dataset) -> list[Row]:
     """What was flown, first of all: loads, attitudes, rates, path, power, stall and stick margins; loads over one revolution."""
     rows = []
-    weight = float(run.attrs.get("condition.gross_mass", 0.0)) * STANDARD_GRAVITY
-    if weight > 0.0:
-        rows.append(_range("load factor [–]", run, -_smooth(run, run["force_z"].values) / weight, ".2f"))
+    rows.append(_range("load factor [–]", run, _smooth(run, load_factor(run)), ".2f"))
     for name in ("roll", "pitch"):
         rows.append(_range(f"{name} [deg]", run, np.rad2deg(run[name].values), ".1f"))
     for name, label in (("p", "roll"), ("q", "pitch"), ("r", "yaw")):
