@@ -298,6 +298,7 @@ class Recorder:
         configuration = {
             "aircraft": start.aircraft.name,
             "loading": start.aircraft.loading_name or "",
+            **({"varied": start.aircraft.changes} if start.aircraft.changes else {}),
             "condition": start.condition.as_attributes(),
             "inflow": {"model": model.inflow.name, **model.inflow.as_attributes()},
             "discretisation": start.aircraft.discretisation._asdict(),

@@ -166,6 +166,17 @@ def quantity(value: Any, si_unit: str, field: str) -> float:
     return number
 
 
+def parted(text: Any) -> tuple[float, str] | None:
+    """Number and unit of a text such as `5,250 ft`; a number alone has the unit `1`; None of what is no such text."""
+    if not isinstance(text, str) or len(text) > LONGEST:
+        return None
+    match = _TEXT.fullmatch(text.strip().translate(_TYPED))
+    if match is None:
+        return None
+    number, unit = float(_APART.sub("", match["number"])), match["unit"].strip() or "1"
+    return (number, unit) if math.isfinite(number) else None
+
+
 def mass_of_weight(value: Any, field: str = "weight") -> float:
     """Mass [kg] of a weight given as force (`lbf`, `N`) or mass (`lb`, `kg`), standard gravity between."""
     for si_unit, scale in (("N", 1.0 / STANDARD_GRAVITY), ("kg", 1.0)):

@@ -6,7 +6,7 @@ from __future__ import annotations
 import hashlib
 import re
 import tempfile
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -29,6 +29,7 @@ class Bundle:
     mirrored: bool
     flexible: bool
     discretisation: dict[str, Any]
+    changes: list[dict[str, Any]] = field(default_factory=list)
 
     @classmethod
     def of(cls, aircraft: Aircraft) -> Bundle:
@@ -36,7 +37,8 @@ class Bundle:
         spec = aircraft.spec
         main = next(iter(spec.contents), aircraft.path.name)
         chosen = dict(spec.discretisation)
-        return cls(main, spec.contents, aircraft.loading_name, spec.mirrored, spec.rotor.blade.flexible, chosen)
+        flexible = spec.rotor.blade.flexible
+        return cls(main, spec.contents, aircraft.loading_name, spec.mirrored, flexible, chosen, spec.changes)
 
     def as_dict(self) -> dict[str, Any]:
         """As JSON takes it, with the sha256 of every file."""
@@ -67,6 +69,8 @@ class Bundle:
                 (root / own).write_text(text, encoding="utf-8", newline="")
             (root / "aircraft.toml").write_text(main, encoding="utf-8", newline="")
             loaded = load_aircraft(root / "aircraft.toml", self.loading)
+            for step in self.changes:
+                loaded = loaded.with_(step)
             loaded.spec.contents.clear()
             loaded.spec.contents.update(self.files)
             spec = loaded.spec

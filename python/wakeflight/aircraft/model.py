@@ -21,6 +21,7 @@ from .number import Number, Numbers, Provenance
 from .schema import AircraftFile, Discretisation, Loading, Rotor, TailRotor
 from .span import Deck
 from .tables import TableFile
+from .varied import joined, plain, varied
 
 if TYPE_CHECKING:
     from ..condition import FlightCondition
@@ -108,7 +109,8 @@ class Aircraft:
     def __repr__(self) -> str:
         """Name and loading."""
         loading = f", loading={self._loading_name!r}" if self._loading_name else ""
-        return f"Aircraft({self.name!r}{loading}{', mirrored' if self._spec.mirrored else ''})"
+        varied = f", varied: {', '.join(self.changes)}" if self.changes else ""
+        return f"Aircraft({self.name!r}{loading}{', mirrored' if self._spec.mirrored else ''}{varied})"
 
     def _repr_html_(self) -> str:
         """A small table."""
@@ -202,6 +204,22 @@ class Aircraft:
             )
         chosen = checked_discretisation(dict(self._spec.discretisation), given)
         return Aircraft(self._spec.model_copy(update={"discretisation": chosen}), self._path, self._loading_name)
+
+    def with_(self, changes: Any) -> Aircraft:
+        """This aircraft with other numbers: values by the dotted names of its file, checked as there.
+
+        `{"rotor.radius": "27 ft", "loading.cg_station": "355 in", "rotor.n_blades": 5}`; several numbers as a list; `"x 1.05"` is
+        the number, or the column of a table (`rotor.blade.structure.mass_kg_m`), times 1.05; None leaves a group out. A rotor goes
+        by its name (`rotor.tail.radius`), without one it is the one with blades. What was changed stands in `.changes` and in
+        every run. Raises InputError as `load_aircraft` does.
+        """
+        steps = joined(self._spec.changes, plain(changes))
+        return Aircraft(varied(self._spec, self._path, steps), self._path, self._loading_name)
+
+    @property
+    def changes(self) -> dict[str, Any]:
+        """What `with_` gave in place of the file's numbers, by dotted names; of a name given twice the last."""
+        return {name: value for step in self._spec.changes for name, value in step.items()}
 
     @property
     def chord(self) -> float:

@@ -14,11 +14,13 @@ import numpy as np
 
 from ..arguments import checked
 from ..errors import InputError
+from ..text import read_text
 from ..units import STANDARD_GRAVITY, quantity
 from .blade_data import blade_data
 from .core_data import lag_damper_data as damper
-from .load import find, load_aircraft, parsed, validated
+from .load import find, load_aircraft, parsed
 from .model import HINGE_MODES, Aircraft, Settings, checked_discretisation
+from .reading import validated
 from .rotor_checks import check_rotor, unused_on_a_stand
 from .rotor_file import UNSTATED, RotorFile, written_out
 from .shipped import SHIPPED
@@ -144,7 +146,8 @@ def _of_file(path: Path, allow_outside: bool) -> Rotor:
         data["rotor"] = written_out(data["rotor"])
     if isinstance(data.get("sources", {}), dict):
         data["sources"] = {**data.get("sources", {}), "unstated": UNSTATED.model_dump()}
-    spec: RotorFile = validated(path, written._replace(data=data), RotorFile, allow_outside)
+    texts = {path.name: read_text(path)}
+    spec: RotorFile = validated(path, written._replace(data=data), RotorFile, texts, allow_outside)
     group = spec.rotor
     core = {
         "n_blades": int(group.n_blades),

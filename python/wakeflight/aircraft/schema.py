@@ -10,7 +10,7 @@ discretisation and `flexible` have defaults; every other missing number is an er
 from __future__ import annotations
 
 import math
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field, PrivateAttr, ValidationInfo, model_validator
 
@@ -309,11 +309,17 @@ class AircraftFile(Group):
     discretisation: Discretisation = Discretisation()
     comparison: dict[str, Noted] = Field(default_factory=dict)
     _contents: dict[str, str] = PrivateAttr(default_factory=dict)
+    _changes: list[dict[str, Any]] = PrivateAttr(default_factory=list)
 
     @property
     def contents(self) -> dict[str, str]:
         """Text of the file and of every table it names, by their names, as they were read."""
         return self._contents
+
+    @property
+    def changes(self) -> list[dict[str, Any]]:
+        """What was given in place of the file's numbers, by dotted names, one step after the other."""
+        return self._changes
 
     @model_validator(mode="after")
     def _complete(self, info: ValidationInfo) -> AircraftFile:

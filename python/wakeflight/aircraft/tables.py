@@ -142,10 +142,13 @@ def _is_of(header: str, base: str) -> bool:
     return header == base or suffix == "R" or suffix in SUFFIXES
 
 
-def read_csv(path: Path, provenance: Provenance) -> TableFile:
-    """Read a CSV file: `#` lines first, one header line, numbers, and columns of text where no cell is a number."""
+def read_csv(path: Path, provenance: Provenance, content: str | None = None) -> TableFile:
+    """Read a CSV file: `#` lines first, one header line, numbers, and columns of text where no cell is a number.
+
+    content: its text, where it is known.
+    """
     try:
-        content = read_text(path)
+        content = read_text(path) if content is None else content
         lines = lines_of(content)
     except ValueError as reason:
         raise ValueError(f"names the file {path}, which {reason}") from reason
@@ -221,7 +224,7 @@ def _validate(entry: Any, info: ValidationInfo) -> TableFile:
     if not isinstance(name, str) or not name:
         raise ValueError(f"must be {allowed}")
     published = Provenance(name, "table", provenance.sources, provenance.confidence, provenance.note)
-    table = read_csv(named_file(name, info), published)
+    table = read_csv(*file_of(name, info, published))
     keep(info, name, table.content)
     return table
 
@@ -229,6 +232,15 @@ def _validate(entry: Any, info: ValidationInfo) -> TableFile:
 def keep(info: ValidationInfo, name: str, content: str) -> None:
     """Remember the text of a file by the name it is given: an aircraft knows what it was read from."""
     (info.context or {}).get("contents", {})[name] = content
+
+
+def file_of(name: str, info: ValidationInfo, provenance: Provenance) -> tuple[Path, Provenance, str | None]:
+    """Path of a file named in the one that is read, its provenance, and its text where it was read before."""
+    context = info.context or {}
+    known = context.get("known", {}).get(name)
+    if known is not None:
+        return Path(context.get("directory", ".")) / name, provenance, known
+    return named_file(name, info), provenance, None
 
 
 def named_file(name: str, info: ValidationInfo) -> Path:

@@ -66,6 +66,9 @@ def _arguments(content: dict[str, Any], command: Any, file: Path, folder: Path) 
             yield str(_own_maneuver(value, file, folder))
         elif key == "control" and isinstance(value, str | dict) and "control" in known:
             yield from ("--control", _path(value.get("file") if isinstance(value, dict) else value, file))
+        elif key == "changes" and isinstance(value, dict) and "changes" in known:
+            for name, each in _flat(value):
+                yield from ("--set", f"{name}={_toml(each)}")
         elif key in GROUPS and isinstance(value, dict):
             for name, each in value.items():
                 if (key, name) != ("outputs", "folder"):
@@ -90,6 +93,15 @@ def _typed(name: str, value: Any, known: dict[str, Any], key: str, file: Path) -
             yield text
         else:
             yield from (f"--{name.replace('_', '-')}", text)
+
+
+def _flat(group: dict[str, Any], before: str = "") -> Iterator[tuple[str, Any]]:
+    """Entries of a group by dotted names, whether its keys were quoted or not."""
+    for name, value in group.items():
+        if isinstance(value, dict):
+            yield from _flat(value, f"{before}{name}.")
+        else:
+            yield f"{before}{name}", value
 
 
 def _inflow(options: dict[str, Any], file: Path) -> Iterator[str]:

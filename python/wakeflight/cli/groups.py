@@ -101,6 +101,17 @@ RotorSpeedName = Annotated[
 ]
 
 
+Changes = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--set",
+        metavar="NAME=VALUE",
+        help="another number for the aircraft's file, rotor.omega=26 rad/s; repeatable",
+        show_default="the file's",
+    ),
+]
+
+
 class Group:
     """Options that belong together: a frozen dataclass, every field annotated with its option and given a default."""
 
@@ -118,6 +129,7 @@ class Vehicle(Group):
     loading: Annotated[str | None, told("--loading", "named mass and c.g. of the aircraft file", OF_AIRCRAFT)] = None
     condition: Annotated[str | None, told("--condition", "named condition of the aircraft file", OF_AIRCRAFT)] = None
     allow_outside: AllowOutside = False
+    changes: Changes = None
 
 
 @dataclass(frozen=True)

@@ -4,6 +4,8 @@
 from __future__ import annotations
 
 import os
+import tomllib
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -88,7 +90,7 @@ def request(
     model = inflow_from(inflow, wake, lenient=lenient)
     if blades not in (None, "rigid", "flexible"):
         raise InputError.choice("--blades", blades, ("rigid", "flexible"))
-    loaded = load_aircraft(vehicle.aircraft, vehicle.loading, vehicle.allow_outside)
+    loaded = changed(load_aircraft(vehicle.aircraft, vehicle.loading, vehicle.allow_outside), vehicle.changes)
     if blades == "rigid":
         loaded = loaded.with_rigid_blades()
     elif blades == "flexible" and not loaded.flexible:
@@ -104,6 +106,25 @@ def request(
         run.out if run.out is not None else Path("runs") / slug(flown.name if flown is not None else "run")
     )
     return Request(loaded, complete, model, folder, drawing, flown, tuple(given.given()), made)
+
+
+def changed(aircraft: Aircraft, typed: Sequence[str] | None) -> Aircraft:
+    """The aircraft with what was typed in place of numbers of its file."""
+    changes: dict[str, Any] = {}
+    for each in typed or ():
+        name, found, value = each.partition("=")
+        if not found or not name.strip():
+            raise InputError.of("--set", each, "must be NAME=VALUE, rotor.omega=26 rad/s")
+        changes[name.strip()] = typed_value(value.strip())
+    return aircraft.with_(changes) if changes else aircraft
+
+
+def typed_value(text: str) -> Any:
+    """A value as TOML writes it: a number, a truth value, a list; anything else is text."""
+    try:
+        return tomllib.loads(f"value = {text}")["value"]
+    except (ValueError, RecursionError):
+        return text
 
 
 def check_drawing(drawing: Drawing) -> Drawing:

@@ -74,6 +74,7 @@ def attributes(start: Solved) -> dict[str, Any]:
             "condition": condition,
             "inflow": {"model": start.inflow.name, **start.inflow.as_attributes()},
             "discretisation": start.aircraft.discretisation._asdict(),
+            **({"varied": start.aircraft.changes} if start.aircraft.changes else {}),
         },
         "condition": condition,
         "seconds_trim": start.seconds,
