@@ -20,6 +20,7 @@ from .maneuvers import Maneuver
 from .progress import Progress, Silent
 from .recorder import Recorder
 from .runlog import read
+from .snapshot import Snapshot
 from .stepping import Instant
 from .stick_samples import DECIMALS, SampledSticks, sampled
 from .trim import INCH, Trim
@@ -34,29 +35,43 @@ def by_hand(name: str, notes: str = "") -> Maneuver:
 
 
 class FlyingByHand(Flying):
-    """A flight by hand in the folder where it is kept; `given` holds a manoeuvre of `by_hand`.
+    """A flight by hand; `given` holds a manoeuvre of `by_hand`.
 
-    `step` flies one coupling step, `end` makes the run. The folder is closed by whoever opened it, when the run has been made.
+    `begin` opens it in the folder where it is kept, `step` flies one coupling step, `land` the last one, `keep` makes the run.
+    The folder is closed by whoever opened it, when the run has been made.
     """
 
-    def __init__(self, start: Trim, given: FlightInput, folder: RunFolder, progress: Progress | Silent):
-        """Check what is flown, converge the wake, or go on from the moment at which the plan begins."""
+    folder: RunFolder
+    at_start: Kept
+    recorder: Recorder
+    failure: str | None = None
+
+    def __init__(self, start: Trim, given: FlightInput, progress: Progress | Silent):
+        """Check what is flown, converge the wake."""
         super().__init__(start, given, progress)
-        self.folder = folder
-        sim, begin = self.sim, given.plan.begin
-        sim.converge(progress)
-        if begin is not None:
-            sim.restore(begin)
-        self.at_start = Kept(sim.snapshot(), sim.phase, dict(sim.seconds))
-        folder.keep_start(start, self.at_start)
-        self._log = folder.samples()
-        rows, wakes = folder.rows(sim, 0), folder.wakes(0)
-        self.recorder = Recorder(sim, self.maneuver, self.n_steps, rows, wakes, lattice=given.plan.lattice)
+        self.sim.converge(progress)
         self.trim_in = start.stick_si / INCH
         self.travel_in = np.asarray(start.aircraft.stick_travel_in, dtype=float)
-        at = np.zeros(4) if begin is None else sim.hands / INCH - self.trim_in
         # at the two ends of the step that begins, and at the end of the next one
-        self._samples = np.tile(self._possible(at), (3, 1))
+        self._samples = np.zeros((3, 4))
+
+    def begin(self, folder: RunFolder, moment: Snapshot | None = None) -> None:
+        """The flight begins, at its trim or at the `moment` of `transfer.carried` at which another one was left for it."""
+        sim = self.sim
+        if moment is not None:
+            self.given = self.given.with_plan(begin=moment)
+            sim.restore(moment)
+            self._samples = np.tile(self._possible(sim.hands / INCH - self.trim_in), (3, 1))
+        self.folder = folder
+        note = folder.begin(self.given)
+        if note:
+            self.progress(f"note: {note}")
+        self.at_start = Kept(sim.snapshot(), sim.phase, dict(sim.seconds))
+        folder.keep_start(self.start, self.at_start)
+        self._log = folder.samples()
+        rows, wakes = folder.rows(sim, 0), folder.wakes(0)
+        lattice = self.given.plan.lattice
+        self.recorder = Recorder(sim, self.maneuver, self.n_steps, rows, wakes, lattice=lattice)
         for k in (0, 1):
             self._keep(k, self._samples[k])
 
@@ -64,6 +79,11 @@ class FlyingByHand(Flying):
     def inches(self) -> np.ndarray:
         """Sticks (4,) [in about trim] that were asked for last."""
         return np.array(self._samples[2])
+
+    @property
+    def now(self) -> np.ndarray:
+        """Sticks (4,) [in about trim] where the coupling step begins that was flown last."""
+        return np.array(self._samples[0])
 
     @property
     def exhausted(self) -> bool:
@@ -94,7 +114,7 @@ class FlyingByHand(Flying):
     ) -> None:
         """Fly one coupling step; sticks are at `inches` (4,) about trim when the next one ends, held between the stops.
 
-        observer sees the instant at which the step begins, kept already. NumericalFailure: `end` with its text makes the run.
+        observer sees the instant at which the step begins, kept already. After a NumericalFailure `land` with its text.
         """
         sim = self.sim
         self._samples = np.stack([self._samples[1], self._samples[2], self._possible(inches)])
@@ -111,26 +131,28 @@ class FlyingByHand(Flying):
             raise NumericalFailure(str(reason)) from reason
         self.folder.beat(sim)
 
-    def end(self, failure: str | None = None) -> Flight:
-        """The run, written to the folder; of a flight that did not fail, after one last step to where the sticks are."""
-        sim = self.sim
+    def land(self, failure: str | None = None) -> None:
+        """No step follows: of a flight that did not fail, after a last one to where the sticks are."""
         if failure is None:
             try:
                 self.step(self.inches)
-                self.recorder.record(sim.last(self._rest()))
+                self.recorder.record(self.sim.last(self._rest()))
             except NumericalFailure as reason:
                 failure = str(reason)
         if failure is not None:
-            failure = f"flight of {self.maneuver.name} stopped at t = {sim.t:.4f} s: {failure}"
+            self.failure = f"flight of {self.maneuver.name} stopped at t = {self.sim.t:.4f} s: {failure}"
         self._log.flush()
+
+    def keep(self) -> Flight:
+        """The run of a flight that has landed, written to its folder."""
         log = read(self.folder.restart / SAMPLES)
         # of a flight that failed also the samples that the step which failed went by
-        n = len(log.records) if failure is not None else sim.steps + 1
+        n = len(log.records) if self.failure is not None else self.sim.steps + 1
         times, inches = (np.array(log.records[name][:n]) for name in ("time", "inches"))
         name, notes = self.maneuver.name, self.maneuver.notes
         self.given = self.given.with_plan(maneuver=sampled(name, times, inches, notes))
         self.maneuver = self.recorder.maneuver = self.given.plan.maneuver
-        flight = self.flight(self.recorder, failure)
+        flight = self.flight(self.recorder, self.failure)
         self.folder.change(self.given, self.start, self.at_start)
         self.folder.save(flight.data, ended=True)
         return flight

@@ -16,11 +16,16 @@ RNG = np.random.default_rng(5)
 
 
 def _flying(folder, start, inflow=None, begin=None, control=None):
-    plan = Plan(by_hand("by hand"), inflow, integrator="fixed", begin=begin, control=control, lattice=False)
+    plan = Plan(by_hand("by hand"), inflow, integrator="fixed", control=control, lattice=False)
     given = FlightInput.of(start.aircraft, Asked.of(start), plan)
-    folder.begin(given)
-    folder.keep_trim(start)
-    return FlyingByHand(start, given, folder, Silent())
+    flying = FlyingByHand(start, given, Silent())
+    flying.begin(folder, begin)
+    return flying
+
+
+def _end(flying, failure=None):
+    flying.land(failure)
+    return flying.keep()
 
 
 def _move(flying, steps, seed=1):
@@ -58,7 +63,7 @@ def test_a_flight_by_hand_is_a_run_that_replays_to_the_same_bits(starts, inflow,
     with RunFolder(tmp_path) as folder:
         flying = _flying(folder, start, inflow, control=sas)
         _move(flying, 40)
-        flight = flying.end()
+        flight = _end(flying)
     assert flight.finished and flight.data.sizes["time"] == 42
     assert float(np.ptp(flight.data.lateral.values)) > 1.0
     again = wf.rerun(tmp_path / "run.nc")
@@ -78,7 +83,7 @@ def test_a_flight_by_hand_that_died_is_gone_on_with_to_the_same_bits(starts, tmp
     with RunFolder(tmp_path / "whole") as folder:
         flying = _flying(folder, start)
         _move(flying, 30)
-        whole = flying.end().data
+        whole = _end(flying).data
     data = wf.resume(tmp_path / "dead").data
     assert data.attrs["finished"]
     for name in ("p", "lateral", "inflow"):
@@ -92,7 +97,7 @@ def test_a_flight_by_hand_that_fails_keeps_what_was_flown(starts, tmp_path):
     with RunFolder(tmp_path) as folder:
         flying = _flying(folder, starts["flexible", "dynamic"])
         _move(flying, 10)
-        flight = flying.end(failure="a test")
+        flight = _end(flying, failure="a test")
     assert "a test" in flight.failure and flight.data.sizes["time"] == 10
     assert wf.open_run(tmp_path).sizes["time"] == 10
 
@@ -106,7 +111,7 @@ def test_a_flight_goes_on_with_another_inflow_model(starts, first, then, tmp_pat
         with pytest.raises(wf.InputError, match="must end a revolution"):
             carried(flying.sim, flying.sim, np.zeros(3))
         _move(flying, 1)
-        before, sim = flying.end().data, flying.sim
+        before, sim = _end(flying).data, flying.sim
     assert sim.steps == 2 * per_revolution
     other = wf.Simulation(starts["flexible", then], inflow=then)
     fit = harmonics(sim, before.azimuth.values[-1], before.inflow.values[-1])
@@ -118,7 +123,7 @@ def test_a_flight_goes_on_with_another_inflow_model(starts, first, then, tmp_pat
     with RunFolder(tmp_path / "then") as folder:
         flying = _flying(folder, other.start, then, begin)
         _move(flying, 20)
-        after = flying.end().data
+        after = _end(flying).data
     for name, near in (("u", 0.0), ("roll", 0.0), ("p", 0.0), ("flap", 1e-12), ("north", 0.0), ("collective", 1e-4)):
         assert np.allclose(after[name].values[0], before[name].values[-1], rtol=0.0, atol=near)
     assert float(after.inflow_mean[0]) == pytest.approx(float(before.inflow_mean[-1]), rel=0.1)
