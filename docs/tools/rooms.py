@@ -25,7 +25,19 @@ ROOMS = {
     "plotting": ("plotting",),
     "export": ("export", "acoustics"),
     "linear": ("linear", "handling"),
-    "flight": ("flight*", "recorder", "resuming", "runlog", "simulation", "stepping", "snapshot", "integrators"),
+    "live": ("cockpit", "gym"),
+    "flight": (
+        "flight*",
+        "recorder",
+        "resuming",
+        "runlog",
+        "simulation",
+        "stepping",
+        "snapshot",
+        "integrators",
+        "stick_samples",
+        "transfer",
+    ),
     "tunnel": ("tunnel",),
     "trim": ("trim",),
     "exchange": ("exchange",),
@@ -50,6 +62,7 @@ ROOMS = {
 """Rooms of Python and the modules in them; a module that is in none is a room of its own."""
 
 MEANING = {
+    "live": "flights while they are flown: a cockpit in a browser, an environment for learning controllers",
     "flight": "a simulation stepped, kept and continued; a manoeuvre flown with it; integrators, what is recorded",
     "linear": "linear models about a trim: derivatives, periodic and constant systems, modes, reduction; handling qualities",
     "trim": "the state in which the aircraft stays: unknowns, equations, free wake in the loop",

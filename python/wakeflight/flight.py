@@ -198,13 +198,15 @@ class Flying:
         for text in warnings:
             progress(f"warning: {text}")
         self.warnings = warnings
-        self.keeps_sheets = keeps_sheets(model, n_steps)
+        self.keeps_sheets = plan.lattice and keeps_sheets(model, n_steps)
 
     def go(self, folder: RunFolder | None = None, kept: Kept | None = None) -> Flight:
         """Fly. folder: where the flight is kept; kept: the moment from which it goes on."""
         sim, progress, n_steps = self.sim, self.progress, self.n_steps
         if kept is None or kept.phase is None:
             sim.converge(progress)
+            if self.given.plan.begin is not None:
+                sim.restore(self.given.plan.begin)
             if folder is not None:
                 folder.keep_start(self.start, Kept(sim.snapshot(), sim.phase, sim.seconds))
         if kept is not None:
@@ -245,11 +247,12 @@ class Flying:
         return flight
 
     def _recorder(self, folder: RunFolder | None, kept: Kept | None) -> Recorder:
+        lattice = self.given.plan.lattice
         if folder is None:
-            return Recorder(self.sim, self.maneuver, self.n_steps)
+            return Recorder(self.sim, self.maneuver, self.n_steps, lattice=lattice)
         rows, wakes = (0, 0) if kept is None else (kept.rows, kept.wakes)
         logs = folder.rows(self.sim, rows), folder.wakes(wakes)
-        return Recorder(self.sim, self.maneuver, self.n_steps, *logs, n_recorded=rows)
+        return Recorder(self.sim, self.maneuver, self.n_steps, *logs, n_recorded=rows, lattice=lattice)
 
     def flight(self, recorder: Recorder, failure: str | None) -> Flight:
         """What was recorded as a Flight."""

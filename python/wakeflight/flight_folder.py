@@ -3,7 +3,8 @@
 
 `run.nc` and what is drawn of it stand in the folder; below it in `restart/` stand `input.json`, the whole input; `trim.ckpt` and
 `start.ckpt`, what the phases before the flight found; `rows.log` and `wakes.log`, what has been flown; `at-STEP.ckpt`, the last
-two moments from which it goes on. Logs and moments go when the flight has ended and its result is on the disk.
+two moments from which it goes on. A flight by hand keeps its sticks in `sticks.log`, until they are in the input. Logs and
+moments go when the flight has ended and its result is on the disk.
 """
 
 from __future__ import annotations
@@ -28,9 +29,10 @@ from .errors import InputError, StorageFailure, WakeflightError
 from .flight_input import FlightInput
 from .recorder import fields_of
 from .results import finished, forget_drawn, load, save
-from .runlog import FileRows, FileWakes, Log, layout, read
+from .runlog import FileRows, FileWakes, Log, LogWriter, layout, read
 from .simulation import ConvergencePhase, Simulation
 from .snapshot import Snapshot, packed, unpacked
+from .stick_samples import sampled
 from .trim import Trim
 from .trim.packing import packed as packed_trim
 from .trim.packing import unpacked as unpacked_trim
@@ -45,6 +47,8 @@ RUN = "run.nc"
 INCOMPLETE = "run-incomplete.nc"
 """Where a flight that did not come to its end is written when the folder holds the result of one that did."""
 RESTART = "restart"
+SAMPLES = "sticks.log"
+"""Sticks of a flight by hand, one sample where every coupling step begins."""
 CHECKPOINTS = 2
 """How many moments are kept."""
 FLUSH_EVERY = 0.25
@@ -93,6 +97,7 @@ class RunFolder:
         self.text = ""
         self._rows: FileRows | None = None
         self._wakes: FileWakes | None = None
+        self._samples: LogWriter | None = None
         self._last_flush = self._last_kept = time.perf_counter()
         self._pause = self.every
         self._lock = -1
@@ -133,7 +138,7 @@ class RunFolder:
         """Write what is complete, as far as that goes, and let others in."""
         with contextlib.suppress(WakeflightError):
             self._flush()
-        for log in (self._rows, self._wakes):
+        for log in (self._samples, self._rows, self._wakes):
             if log is not None:
                 log.close()
         if self._lock >= 0:
@@ -172,7 +177,20 @@ class RunFolder:
         except (OSError, UnicodeDecodeError) as reason:
             said = "holds no flight that could go on: `wakeflight fly ... --out` begins one"
             raise InputError.of("folder", str(self.folder), said) from reason
-        return FlightInput.from_text(self.text, path, control)
+        given = FlightInput.from_text(self.text, path, control)
+        if not self.by_hand:
+            return given
+        log = read(self.restart / SAMPLES)
+        times, inches = (log.records[name] for name in ("time", "inches"))
+        if len(times) < 2:
+            raise InputError.of("folder", str(self.folder), "holds a flight by hand that died before its first step")
+        maneuver = given.plan.maneuver
+        return given.with_plan(maneuver=sampled(maneuver.name, times, inches, maneuver.notes))
+
+    @property
+    def by_hand(self) -> bool:
+        """Whether the sticks of the flight that is here are still in a log."""
+        return (self.restart / SAMPLES).exists()
 
     def reopen(self, control: Augmentation | None = None) -> FlightInput:
         """The flight that is here goes on."""
@@ -189,6 +207,8 @@ class RunFolder:
         self.keep_trim(start)
         if at_start is not None:
             self.keep_start(start, at_start)
+        # they are in the input now
+        (self.restart / SAMPLES).unlink(missing_ok=True)
 
     def result(self) -> xr.Dataset | None:
         """The result of the flight that is here, None where it has not come to its end."""
@@ -248,6 +268,11 @@ class RunFolder:
         self._rows = FileRows(self.restart / "rows.log", fields_of(sim), kept or None)
         return self._rows
 
+    def samples(self) -> LogWriter:
+        """Where the sticks of a flight by hand go: time [s], inches about trim."""
+        self._samples = LogWriter(self.restart / SAMPLES, {"time": (), "inches": (4,)})
+        return self._samples
+
     def wakes(self, kept: int) -> FileWakes:
         """Where wakes go."""
         if kept == 0:
@@ -271,8 +296,8 @@ class RunFolder:
             self._pause = max(self.every, (self._last_kept - now) / SHARE) if self.every else 0.0
 
     def _flush(self, to_disk: bool = False) -> None:
-        # a row counts when it is there, so that its wake must be there first
-        for log in (self._wakes, self._rows):
+        # a row counts when it is there, so that its wake and its sticks must be there first
+        for log in (self._samples, self._wakes, self._rows):
             if log is not None:
                 log.flush(to_disk)
 

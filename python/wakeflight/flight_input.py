@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import base64
+import binascii
 import json
 import os
 import platform
@@ -27,6 +29,7 @@ from .maneuvers import Maneuver
 from .options import Radians, options_of
 from .progress import Progress, Silent
 from .rotor_speed import CONSTANT, RotorSpeed
+from .snapshot import Snapshot
 from .trim import Trim, trim
 
 VERSION = 1
@@ -34,7 +37,11 @@ VERSION = 1
 
 @dataclass(frozen=True)
 class Plan:
-    """What is flown from a trim: arguments of `fly`."""
+    """What is flown from a trim: arguments of `fly`.
+
+    begin: the moment of this flight at which another one was left for it, in place of the trim. lattice: whether a full-span
+    wake may be kept whole, where the flight is short enough.
+    """
 
     maneuver: Maneuver
     inflow: InflowModel | str | None = None
@@ -44,6 +51,8 @@ class Plan:
     stabilator: str = "held"
     rotor_speed: RotorSpeed | Engine = CONSTANT
     control: Augmentation | None = None
+    begin: Snapshot | None = None
+    lattice: bool = True
 
 
 @dataclass(frozen=True)
@@ -105,7 +114,8 @@ class FlightInput:
             "flight": dict(_held(plan))
             | {"maneuver": {name: value for name, value in _held(plan.maneuver) if name != "control"}}
             | {"inflow": _told(plan.inflow), "rotor_speed": told(plan.rotor_speed)}
-            | {"control": None if plan.control is None else plan.control.described()},
+            | {"control": None if plan.control is None else plan.control.described()}
+            | {"begin": None if plan.begin is None else base64.b64encode(plan.begin.to_bytes()).decode("ascii")},
         }
         return json.dumps(whole, allow_nan=False, ensure_ascii=False, default=_number)
 
@@ -127,11 +137,13 @@ class FlightInput:
                 plan["control"] = control
             elif plan["control"] is not None:
                 plan["control"] = from_description(plan["control"])
+            if plan.get("begin") is not None:
+                plan["begin"] = Snapshot.from_bytes(base64.b64decode(plan["begin"]))
             aircraft = Bundle.from_dict(whole["aircraft"]).aircraft()
             found = cls(aircraft, Asked(**asked), Plan(**plan), whole["made"])
             vars(found)["text"] = text
             return found
-        except (KeyError, TypeError, AttributeError, json.JSONDecodeError) as reason:
+        except (KeyError, TypeError, AttributeError, json.JSONDecodeError, binascii.Error) as reason:
             said = f"must be the whole input of a flight as this program writes it: {type(reason).__name__}: {reason}"
             raise InputError.of("input", text[:20], said, file) from reason
 

@@ -53,7 +53,8 @@ class Maneuver:
     revolutions, seconds: duration, one of the two given. travel_in: travel the inches belong to [in], rotor_speed: rotor
     speed the revolutions belong to [rad/s]; None: they are those of whatever aircraft flies. shipped: whether it comes with
     the package and is flown as published, even beyond the stops. adapted: what `for_aircraft` changed, a sentence each. control:
-    what is between sticks and blades where a flight is not given another, its inches those of `travel_in`.
+    what is between sticks and blades where a flight is not given another, its inches those of `travel_in`. off_trim: whether
+    sticks may begin elsewhere than at trim, as they do where a flight goes on from another.
     """
 
     name: str
@@ -67,6 +68,7 @@ class Maneuver:
     shipped: bool = False
     adapted: tuple[str, ...] = ()
     control: Augmentation | None = None
+    off_trim: bool = False
 
     def __post_init__(self) -> None:
         """Check names, times and values."""
@@ -95,7 +97,7 @@ class Maneuver:
                 "corners_of", self.corners_of, "must hold the corners of each stick that moves, by its name"
             )
         for given in self.corners_of:
-            _check_history(given)
+            _check_history(given, self.off_trim)
         own = tuple((stick, tuple((float(t), float(x)) for t, x in corners)) for stick, corners in self.corners_of)
         object.__setattr__(self, "corners_of", own)
         sticks = [stick for stick, _ in self.corners_of]
@@ -400,8 +402,8 @@ def _known(sources: list[str]) -> tuple[str, ...]:
     return tuple(sources)
 
 
-def _check_history(given: Any) -> None:
-    """Refuse what is no stick with its corners, times ascending from 0 s, inches from 0."""
+def _check_history(given: Any, off_trim: bool) -> None:
+    """Refuse what is no stick with its corners, times ascending from 0 s, inches from 0 unless it may begin `off_trim`."""
     if not isinstance(given, tuple | list) or len(given) != 2:
         raise InputError.of("corners_of", given, "must hold a pair (stick, corners) for each stick that moves")
     stick, corners = given
@@ -416,7 +418,7 @@ def _check_history(given: Any) -> None:
         raise InputError.of(stick, list(corners), "must have at least two corner points [time s, inches from trim]")
     if corners[0][0] < 0.0:
         raise InputError.of(stick, f"{corners[0][0]:g} s", "must start at 0 s or later")
-    if corners[0][1] != 0.0:
+    if corners[0][1] != 0.0 and not off_trim:
         raise InputError.of(stick, f"{corners[0][1]:g} in", "must start from trim, 0 in")
     for (before, _), (after, _) in itertools.pairwise(corners):
         if not after > before:

@@ -97,8 +97,8 @@ class Wakes(Protocol):
 class Recorder:
     """Rows of a run, filled step by step; `stick` is what reaches the blades.
 
-    rows, wakes: where they go, memory by default; n_recorded: how many there are already. While the flight lasts the arrays here
-    are a window of the rows, `read` makes them all of them.
+    rows, wakes: where they go, memory by default; n_recorded: how many there are already; lattice: as in a plan. While the flight
+    lasts the arrays here are a window of the rows, `read` makes them all of them.
     """
 
     def __init__(
@@ -109,13 +109,15 @@ class Recorder:
         rows: Rows | None = None,
         wakes: Wakes | None = None,
         n_recorded: int = 0,
+        lattice: bool = True,
     ):
         self.model, self.start, self.maneuver = sim.model, sim.start, maneuver
         self.exchange, self.phase = sim.exchange, sim.phase
         self.log, self.control = ControlLog(sim.chain), sim.control
         self.turning = sim.turning.name
         self.n_recorded = n_recorded
-        self.keeps_sheets = keeps_sheets(sim.model, n_steps)
+        self.keeps_sheets = lattice and keeps_sheets(sim.model, n_steps)
+        self._latest = 0
         self._rows = rows or MemoryRows(fields_of(sim), n_steps + 1)
         self._wakes = wakes or MemoryWakes()
         self._bind(self._rows.window)
@@ -169,7 +171,13 @@ class Recorder:
         if not np.isfinite(y).all() or not all(map(math.isfinite, out["force"])):
             raise ArithmeticError(f"loads are not finite at t = {t:.4f} s")
         self._rows.done(step)
+        self._latest = k
         self.n_recorded = step + 1
+
+    def latest(self, name: str) -> np.ndarray:
+        """A field of the instant that was kept last; to be looked at before the next one is kept."""
+        found: np.ndarray = self._rows.window[name][self._latest]
+        return found
 
     def _keep_wake(self, step: int) -> None:
         """Keep the vortices, where there are any."""

@@ -109,7 +109,7 @@ def resumed(
         progress(f"note: {text}")
     at_start = found.at_start
     kept = at_start if kept is None else replace(kept, phase=at_start.phase if at_start else None)
-    if asked is not given:
+    if asked is not given or folder.by_hand:
         folder.change(asked, found.start, at_start)
     elif kept is None:
         folder.keep_trim(found.start)
@@ -224,7 +224,8 @@ def _as_logged(folder: RunFolder, how: str, progress: Progress | Silent) -> Flig
     kept = folder.latest(flying.sim, float("inf"), []) or at_start
     flying.sim.go_on(kept.snapshot, at_start.phase, kept.seconds)
     rows, wakes = LoggedRows(log.arrays()), LoggedWakes(folder.restart / "wakes.log")
-    recorder = Recorder(flying.sim, flying.maneuver, flying.n_steps, rows, wakes, len(log.records))
+    n, lattice = len(log.records), given.plan.lattice
+    recorder = Recorder(flying.sim, flying.maneuver, flying.n_steps, rows, wakes, n, lattice)
     flown, end = float(log.records["time"][-1]), flying.sim.clock.time(flying.n_steps)
     said = f"flight of {flying.maneuver.name} {how}: rows up to t = {flown:.4f} s of {end:.4f} s"
     return flying.flight(recorder, said)

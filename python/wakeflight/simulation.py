@@ -185,7 +185,7 @@ class Simulation(Stepping):
         """The states by name."""
         y = self.y
         angles = np.concatenate(euler_angles(y[None, 6:10]))
-        about_trim = (self._hands - self._asked(None)) / INCH
+        about_trim = (self.hands - self._asked(None)) / INCH
         stick = dict(zip(STICKS, about_trim.tolist(), strict=True))
         return State(self.t, y, y[:3], y[3:6], angles, y[10:13], stick)
 
@@ -206,14 +206,14 @@ class Simulation(Stepping):
         n = 1 if dt is None else max(1, round(self.clock.steps(self._step, quantity(dt, "s", "dt"))))
         try:
             for _ in range(n):
-                self.follow(Ramp(self.t, self.clock.time(self._step + 1), self._hands, target))
+                self.follow(Ramp(self.t, self.clock.time(self._step + 1), self.hands, target))
         except (ArithmeticError, np.linalg.LinAlgError) as reason:
             raise NumericalFailure(f"simulation stopped at t = {self.t:.4f} s: {reason}") from reason
         return self.state
 
     @property
-    def _hands(self) -> np.ndarray:
-        """Sticks [m from the stop] where the pilot has them."""
+    def hands(self) -> np.ndarray:
+        """Sticks (4,) [m from the stop] where the pilot has them."""
         return self._stick if self.chain is None else self.chain.hands
 
     def last(self, sticks: StickPath) -> Instant:

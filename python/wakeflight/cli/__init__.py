@@ -21,6 +21,7 @@ from ..errors import NumericalFailure, WakeflightError, one_line, shortened
 from ..interruption import answered
 from . import (
     case,
+    cockpit,
     compare,
     converge,
     export,
@@ -48,6 +49,7 @@ app = typer.Typer(
 
 for _command in (
     fly.fly,
+    cockpit.cockpit,
     compare.compare,
     trim.trim,
     modes.modes,
