@@ -50,6 +50,7 @@ if TYPE_CHECKING:
     from .simulation import Simulation
     from .snapshot import Snapshot
     from .studies.converge import converge
+    from .sweep import Normal, Uniform, arange, grid, sample, sweep
     from .trim import Trim, trim
     from .tunnel import Tunnel, tunnel
     from .vortex import induced_velocity
@@ -78,6 +79,12 @@ _HOME = {
     "from_control": "control",
     "load_control": "control",
     "converge": "studies.converge",
+    "Normal": "sweep",
+    "Uniform": "sweep",
+    "arange": "sweep",
+    "grid": "sweep",
+    "sample": "sweep",
+    "sweep": "sweep",
     "InputError": "errors",
     "Interrupted": "errors",
     "NumericalFailure": "errors",
@@ -141,6 +148,7 @@ __all__ = [
     "Interrupted",
     "LinearModel",
     "Maneuver",
+    "Normal",
     "NumericalFailure",
     "PitchBiasActuator",
     "RateDamping",
@@ -155,10 +163,12 @@ __all__ = [
     "Trim",
     "Tunnel",
     "TurnCoordination",
+    "Uniform",
     "WakeflightError",
     "Wing",
     "__version__",
     "airfoil_loop",
+    "arange",
     "arrested_descent",
     "bibtex",
     "blade_modes",
@@ -171,6 +181,7 @@ __all__ = [
     "fly",
     "follow",
     "from_control",
+    "grid",
     "handling_qualities",
     "induced_velocity",
     "inflow_model",
@@ -185,6 +196,8 @@ __all__ = [
     "rerun",
     "resume",
     "roll_reversal",
+    "sample",
+    "sweep",
     "trim",
     "tunnel",
     "wing",

@@ -10,7 +10,12 @@ FOLDER = Path(__file__).resolve().parents[2] / "examples"
 SHORT = {
     "first_flight": {"revolutions": 1},
     "inflow_models": {"seconds": 0.3},
-    "power_curve": {"speeds": (60, 100)},
+    "power_curve": {"speeds": ("60 kt", "100 kt")},
+    "envelope": {"n_speeds": 2, "n_altitudes": 2},
+    "monte_carlo": {"members": 2, "revolutions": 1},
+    "derivatives": {"speeds": ("60 kt",)},
+    "uh60a_modes": {},
+    "bandwidth": {"names": ("uh60a",)},
     "own_maneuver": {"seconds": 1.0},
     "hover_stand": {"collectives": (6, 8), "wake_at": None},
     "autopilot": {"seconds": 0.6},

@@ -209,9 +209,9 @@ class Aircraft:
         """This aircraft with other numbers: values by the dotted names of its file, checked as there.
 
         `{"rotor.radius": "27 ft", "loading.cg_station": "355 in", "rotor.n_blades": 5}`; several numbers as a list; `"x 1.05"` is
-        the number, or the column of a table (`rotor.blade.structure.mass_kg_m`), times 1.05; None leaves a group out. A rotor goes
-        by its name (`rotor.tail.radius`), without one it is the one with blades. What was changed stands in `.changes` and in
-        every run. Raises InputError as `load_aircraft` does.
+        the number, or the column of a table (`rotor.blade.structure.mass_kg_m`), times 1.05; None leaves a group out. A rotor
+        goes by its name (`rotor.tail.radius`), without one it is the one with blades. What was changed stands in `.changes`
+        and in every run. Raises InputError as `load_aircraft` does.
         """
         steps = joined(self._spec.changes, plain(changes))
         return Aircraft(varied(self._spec, self._path, steps), self._path, self._loading_name)
