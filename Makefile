@@ -37,6 +37,7 @@ test: $(STAMPS)/dev
 	@$(MAKE) --no-print-directory $(STAMPS)/package
 	$(BIN)/ruff check python tests validation docs/tools examples
 	$(BIN)/ruff format --check python tests validation docs/tools examples
+	$(BIN)/mypy
 	WAKEFLIGHT_THREADS=1 $(BIN)/python -m pytest -m "not slow" --numprocesses $(PROCESSES) --dist loadfile
 
 validate: $(STAMPS)/dev $(STAMPS)/package

@@ -36,6 +36,7 @@ if TYPE_CHECKING:
         from_control,
         load_control,
     )
+    from .engine import Engine, FreeEngine, GovernedEngine
     from .errors import InputError, Interrupted, NumericalFailure, StorageFailure, WakeflightError
     from .export import export, export_wopwop
     from .file_schemas import file_schema
@@ -55,6 +56,8 @@ if TYPE_CHECKING:
     from .tunnel import Tunnel, tunnel
     from .vortex import induced_velocity
     from .wing import Wing, wing
+
+    __version__: str
 
 _HOME = {
     "noise": "acoustics",
@@ -204,21 +207,24 @@ __all__ = [
 ]
 
 
-def __getattr__(name: str) -> Any:
-    """Import a public name from its module on first use."""
-    if name == "__version__":
-        from importlib.metadata import PackageNotFoundError, version
+if not TYPE_CHECKING:
+    # to whoever checks types the names are those imported above, and a misspelt one is an error
 
-        try:
-            value: Any = version("wakeflight")
-        except PackageNotFoundError:  # run from a source tree
-            value = "0+unknown"
-    elif name in _HOME:
-        value = getattr(import_module(f".{_HOME[name]}", __name__), name)
-    else:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    globals()[name] = value
-    return value
+    def __getattr__(name: str) -> Any:
+        """Import a public name from its module on first use."""
+        if name == "__version__":
+            from importlib.metadata import PackageNotFoundError, version
+
+            try:
+                value: Any = version("wakeflight")
+            except PackageNotFoundError:  # run from a source tree
+                value = "0+unknown"
+        elif name in _HOME:
+            value = getattr(import_module(f".{_HOME[name]}", __name__), name)
+        else:
+            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        globals()[name] = value
+        return value
 
 
 def __dir__() -> list[str]:

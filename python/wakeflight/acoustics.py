@@ -112,9 +112,9 @@ def sources(run: xr.Dataset, revolutions: tuple[float, float] | None = None, for
         raise InputError.of("run", run.attrs.get("maneuver", "flight"), allowed)
     radius = float(run.attrs["radius"])
     turned, hub = frames.hub_in_earth(run)
-    angles = (run[name].values for name in ("azimuth", "flap", "lead"))
+    azimuth, flap, lead = (run[name].values for name in ("azimuth", "flap", "lead"))
     r = run["station"].values * radius
-    in_hub = frames.blade_points(shape, *angles, r, np.zeros_like(r))  # (time, blade, station, 3)
+    in_hub = frames.blade_points(shape, azimuth, flap, lead, r, np.zeros_like(r))  # (time, blade, station, 3)
     place = np.einsum("tij,tbsj->tbsi", turned, in_hub) + hub[:, None, None, :]
     along = np.gradient(place, axis=2) / np.gradient(r)[:, None]
     along /= np.linalg.norm(along, axis=-1, keepdims=True)
@@ -162,7 +162,8 @@ def pressure(given: Sources, observer: np.ndarray) -> tuple[np.ndarray, np.ndarr
     towards = towards / r[..., None]
 
     def dot(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-        return np.einsum("tsi,tsi->ts", a, b)
+        found: np.ndarray = np.einsum("tsi,tsi->ts", a, b)
+        return found
 
     m_r = dot(mach, towards)
     if float(m_r.max()) > FASTEST:

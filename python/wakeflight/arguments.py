@@ -128,7 +128,7 @@ class _Anything:
 def _values(parameter: inspect.Parameter, value: Any) -> Sequence[Any]:
     """Values of one parameter: several where it takes any number."""
     if parameter.kind is inspect.Parameter.VAR_POSITIONAL:
-        return value
+        return tuple(value)
     return tuple(value.values()) if parameter.kind is inspect.Parameter.VAR_KEYWORD else (value,)
 
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, fields
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from . import regime as regimes
 from .arguments import checked
-from .errors import InputError
+from .errors import InputError, known
 from .units import STANDARD_GRAVITY, convert, mass_of_weight, number, quantity, shown
 
 HEADING_FREE_SPEED = convert(60.0, "kt", "m/s")
@@ -126,7 +126,7 @@ class FlightCondition:
         object.__setattr__(self, "turn", _turn(turn, load_factor))
         object.__setattr__(self, "heading", _heading(heading, self.sideslip, self.bank))
         named = {"free": 1.0, "aligned": 0.0}
-        object.__setattr__(self, "bank_share", named.get(self.heading))
+        object.__setattr__(self, "bank_share", None if self.heading is None else named[self.heading])
 
     @property
     def weight(self) -> float | None:
@@ -140,17 +140,20 @@ class FlightCondition:
 
     def regime(self, tip_speed: float) -> str:
         """Regime (`wakeflight.regime`) of a rotor whose shaft stands upright: horizontal speed across it, vertical along it."""
-        across, up = self.speed * math.cos(self.flight_path), self.speed * math.sin(self.flight_path)
+        speed, flight_path = known(self.speed), known(self.flight_path)
+        across, up = speed * math.cos(flight_path), speed * math.sin(flight_path)
         return regimes.regime(across, up, tip_speed)
 
-    def completed(self, aircraft: Completing, named: str | None = None) -> FlightCondition:
+    def completed(self, aircraft: Completing, named: str | None = None) -> CompleteCondition:
         """This condition completed by the aircraft; `named`: one of its alternative conditions."""
         values = {field.name: getattr(self, field.name) for field in fields(self)}
         for name in ("speed", "flight_path", "altitude", "gross_mass"):
             if values[name] is None:
                 values[name] = aircraft.default(name, named)
         if self.load_factor is not None:
-            values["turn_rate"] = self._rate_of_turn(values["speed"] * math.cos(values["flight_path"]))
+            values["turn_rate"] = self._rate_of_turn(
+                self.load_factor, values["speed"] * math.cos(values["flight_path"])
+            )
         if values["heading"] is None:
             share = _bank_share(values["speed"], values["flight_path"], values["turn_rate"])
             values["heading"], values["bank_share"] = "free" if share == 1.0 else "aligned", share
@@ -173,21 +176,21 @@ class FlightCondition:
         """1 of a turn to the right, -1 of one to the left."""
         return TURNS[self.turn or "right"]
 
-    def _rate_of_turn(self, horizontal_speed: float) -> float:
+    def _rate_of_turn(self, load_factor: float, horizontal_speed: float) -> float:
         """Rate of turn [rad/s] that gives the load factor."""
-        across = math.sqrt(self.load_factor**2 - 1.0)
+        across = math.sqrt(load_factor**2 - 1.0)
         if across > 0.0 and horizontal_speed < SLOWEST_FREE:
             allowed = f"1 at a horizontal speed below {shown(SLOWEST_FREE, 'm/s')}: no turn gives more"
-            raise InputError.of("load_factor", self.load_factor, allowed)
+            raise InputError.of("load_factor", load_factor, allowed)
         return self.turn_side * STANDARD_GRAVITY * across / max(horizontal_speed, SLOWEST_FREE)
 
-    def changed(self, **values: float) -> FlightCondition:
+    def changed(self, **values: float) -> CompleteCondition:
         """This condition with some numbers changed, SI and radians, unchecked: a step of a continuation."""
         return self._with({**{field.name: getattr(self, field.name) for field in fields(self)}, **values})
 
     @staticmethod
-    def _with(values: dict[str, Any]) -> FlightCondition:
-        whole = object.__new__(FlightCondition)
+    def _with(values: dict[str, Any]) -> CompleteCondition:
+        whole = object.__new__(CompleteCondition)
         for name, value in values.items():
             object.__setattr__(whole, name, value)
         return whole
@@ -198,10 +201,31 @@ class FlightCondition:
         return {name: value for name, value in values.items() if value is not None}
 
 
+if TYPE_CHECKING:
+
+    @dataclass(frozen=True, init=False)
+    class CompleteCondition(FlightCondition):
+        """A flight condition with nothing left to fill in, to whoever checks types; when the program runs there is one class."""
+
+        speed: float
+        flight_path: float
+        altitude: float
+        gross_mass: float
+        heading: str
+        bank_share: float
+
+        @property
+        def weight(self) -> float:
+            """Weight [N]: gross mass times standard gravity."""
+
+else:
+    CompleteCondition = FlightCondition
+
+
 @checked
 def condition_for(
     aircraft: Completing, condition: FlightCondition | None = None, named: str | None = None, **given: Any
-) -> FlightCondition:
+) -> CompleteCondition:
     """Complete condition: `condition`, or one made of `given` (text with units); the rest from the aircraft.
 
     named: an alternative condition of the file to take the rest from.
@@ -238,7 +262,7 @@ def _turn(turn: Any, load_factor: Any) -> str | None:
         raise InputError.choice("turn", turn, TURNS)
     if load_factor is None:
         raise InputError.of("turn", turn, "belongs to a load factor, and none is given")
-    return turn
+    return str(turn)
 
 
 def _bank_share(speed: float, flight_path: float, turn_rate: float) -> float:
@@ -292,7 +316,7 @@ class Target:
 
 
 def target(
-    condition: FlightCondition, power: Any = None, collective: Any = None, free: str | None = None
+    condition: CompleteCondition, power: Any = None, collective: Any = None, free: str | None = None
 ) -> Target | None:
     """The target of a trim in a complete condition, from text with units or pint quantities; None where nothing is asked."""
     if free is not None and free not in FREE:

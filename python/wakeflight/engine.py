@@ -193,4 +193,5 @@ def engine_of(described: Mapping[str, Any]) -> Engine:
     name = given.pop("engine")
     if name not in ENGINES:
         raise InputError.of("rotor_speed", name, f"an engine of your own is in no file; allowed: {', '.join(ENGINES)}")
-    return ENGINES[name](**given)
+    found: Engine = ENGINES[name](**given)
+    return found

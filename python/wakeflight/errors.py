@@ -5,10 +5,19 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from difflib import get_close_matches
-from typing import Any
+from typing import Any, Self, TypeVar
+
+Value = TypeVar("Value")
 
 LONGEST = 640
 """Longest message of an input error: a line that a person reads. What is beyond is left out of its middle."""
+
+
+def known(value: Value | None) -> Value:
+    """`value`, which is there: what comes before has seen to it."""
+    if value is None:
+        raise AssertionError("a value that must be known here is not")
+    return value
 
 
 class WakeflightError(Exception):
@@ -27,13 +36,13 @@ class InputError(WakeflightError, ValueError):
         super().__init__(shortened(one_line(message), LONGEST))
 
     @classmethod
-    def of(cls, field: str, value: object, allowed: str, file: object = None) -> InputError:
+    def of(cls, field: str, value: object, allowed: str, file: object = None) -> Self:
         """Error about one field: `file: field = value: allowed`."""
         where = f"{shortened(str(file), 240)}: " if file is not None else ""
         return cls(f"{where}{shortened(str(field), 120)} = {_shown(value)}: {allowed}")
 
     @classmethod
-    def choice(cls, field: str, value: object, names: Iterable[str], more: str = "", file: object = None) -> InputError:
+    def choice(cls, field: str, value: object, names: Iterable[str], more: str = "", file: object = None) -> Self:
         """Error about a field that takes one of `names`, the nearest of them first; more: what else is taken."""
         known = list(names)
         near = get_close_matches(str(value)[:80].lower(), known, n=1, cutoff=0.6)

@@ -9,6 +9,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from . import _core
+from .errors import known
 from .model import CompiledRotor
 
 
@@ -29,7 +30,7 @@ class Exchange:
     def __init__(self, model: CompiledRotor, core: _core.Exchange):
         self.model, self.core = model, core
         self.n = model.steps_per_revolution
-        self._frozen: tuple | None = None
+        self._frozen: tuple[Any, tuple[np.ndarray, np.ndarray], np.ndarray] | None = None
 
     @classmethod
     def dynamic(cls, model: CompiledRotor, sections: _core.SectionMemory | None = None) -> Exchange:
@@ -173,11 +174,11 @@ class Exchange:
 
     def position(self) -> np.ndarray:
         """Tip vortices (n_blades, n_ages, 3) [m], hub axes."""
-        return self.tips(self.step_index)[0]
+        return known(self.tips(self.step_index))[0]
 
     def marker_circulation(self) -> np.ndarray:
         """Circulation of the nodes of the tip vortices (n_blades, n_ages) [m2/s]."""
-        return self.tips(self.step_index)[1]
+        return known(self.tips(self.step_index))[1]
 
     def wake(self) -> _core.TimeMarchingWake:
         """A copy of the wake as it is now."""
@@ -191,7 +192,7 @@ def exchange_of(
     remember at its start."""
     kinds: dict[str, Callable[[], Exchange]] = {
         "dynamic": lambda: Exchange.dynamic(model, sections),
-        "relaxation": lambda: Exchange.relaxation(model, trimmed, motion()),
-        "time-marching": lambda: Exchange.marching(model, trimmed),
+        "relaxation": lambda: Exchange.relaxation(model, known(trimmed), motion()),
+        "time-marching": lambda: Exchange.marching(model, known(trimmed)),
     }
     return kinds[model.inflow.name]()

@@ -408,7 +408,7 @@ def _phase(scalars: dict[str, Any], parts: dict[str, bytes]) -> ConvergencePhase
     own = dict(scalars)
     shapes = own.pop("shapes")
     maps = {name: np.frombuffer(parts[name], "<f8").reshape(shape).copy() for name, shape in shapes.items()}
-    return ConvergencePhase(**own, **maps)
+    return ConvergencePhase(**(own | maps))
 
 
 def _below(prefix: str, parts: dict[str, bytes]) -> dict[str, bytes]:

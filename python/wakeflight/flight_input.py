@@ -190,7 +190,8 @@ def _model(told: Any) -> Any:
     if name not in MODELS:
         raise InputError.of("inflow", name, f"allowed: {', '.join(MODELS)}")
     angles = {option.name for option in options_of(name).values() if option.is_angle}
-    return MODELS[name](
+    made: Any = MODELS[name]
+    return made(
         **{key: Radians(value) if key in angles and value is not None else value for key, value in told.items()}
     )
 

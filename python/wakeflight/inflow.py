@@ -26,8 +26,13 @@ Kind = TypeVar("Kind", bound="type[Inflow]")
 class Flown(Protocol):
     """What an inflow model asks of an aircraft, or of a rotor alone."""
 
-    discretisation: Any
-    rotor: Any
+    @property
+    def discretisation(self) -> Any:
+        """Azimuth step, elements, modes."""
+
+    @property
+    def rotor(self) -> Any:
+        """Numbers of the rotor: blades, radius, speed, root."""
 
     @property
     def chord(self) -> float:
@@ -64,6 +69,28 @@ class Inflow:
     """Whether the wake marches in time with the flight."""
 
     azimuth_step: Any
+    n_stations: int
+    unsteady: str
+
+    @property
+    def free_wake(self) -> FreeWake:
+        """This model as that of a free wake, which it is."""
+        raise InputError.of("inflow", self.name, "has no free wake")
+
+    @property
+    def relaxed(self) -> RelaxationWake:
+        """This model as that of a relaxation wake, which it is."""
+        raise InputError.of("inflow", self.name, "is no relaxation wake")
+
+    @property
+    def marching(self) -> TimeMarchingWake:
+        """This model as that of a time-marching wake, which it is."""
+        raise InputError.of("inflow", self.name, "is no time-marching wake")
+
+    @property
+    def annular(self) -> AnnularInflow:
+        """This model as that of rings, which it is."""
+        raise InputError.of("inflow", self.name, "has no rings")
 
     @property
     def sections(self) -> dict[str, Any]:
@@ -143,7 +170,17 @@ class FreeWake(Inflow):
 
     is_free_wake: ClassVar[bool] = True
     trailers: Any
+    n_trailers: int
+    turns: Any
+    far_wake_turns: int | None
+    near_wake_angle: Any
+    release_radius: float
     update_interval: Any
+
+    @property
+    def free_wake(self) -> FreeWake:
+        """Itself."""
+        return self
 
     @property
     def is_full_span(self) -> bool:
@@ -241,6 +278,11 @@ class RelaxationWake(FreeWake):
     is_relaxed: ClassVar[bool] = True
     references: ClassVar[tuple[str, ...]] = ("bagai1995", "leishman2002", "vatistas1991", "squire1965")
 
+    @property
+    def relaxed(self) -> RelaxationWake:
+        """Itself."""
+        return self
+
 
 @_with_options
 class TimeMarchingWake(FreeWake):
@@ -255,6 +297,11 @@ class TimeMarchingWake(FreeWake):
         "vatistas1991",
         "squire1965",
     )
+
+    @property
+    def marching(self) -> TimeMarchingWake:
+        """Itself."""
+        return self
 
     def trim_model(self) -> RelaxationWake:
         """A relaxation wake of the options that both kinds share: a marching wake is trimmed with it."""
@@ -277,6 +324,11 @@ class AnnularInflow(Inflow):
     name: ClassVar[str] = "annular"
     is_annular: ClassVar[bool] = True
     references: ClassVar[tuple[str, ...]] = ("leishman2006",)
+
+    @property
+    def annular(self) -> AnnularInflow:
+        """Itself."""
+        return self
 
 
 InflowModel = TimeMarchingWake | RelaxationWake | DynamicInflow

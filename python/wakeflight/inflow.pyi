@@ -4,8 +4,10 @@ from dataclasses import dataclass
 from typing import Any, ClassVar, Literal, Protocol, Self
 
 class Flown(Protocol):
-    discretisation: Any
-    rotor: Any
+    @property
+    def discretisation(self) -> Any: ...
+    @property
+    def rotor(self) -> Any: ...
     @property
     def chord(self) -> float: ...
 
@@ -19,6 +21,17 @@ class Inflow:
     is_free_wake: ClassVar[bool]
     is_relaxed: ClassVar[bool]
     is_marching: ClassVar[bool]
+    azimuth_step: Any
+    n_stations: int
+    unsteady: str
+    @property
+    def free_wake(self) -> FreeWake: ...
+    @property
+    def relaxed(self) -> RelaxationWake: ...
+    @property
+    def marching(self) -> TimeMarchingWake: ...
+    @property
+    def annular(self) -> AnnularInflow: ...
     @property
     def sections(self) -> dict[str, Any]: ...
     @property
@@ -36,6 +49,15 @@ class Inflow:
 
 class FreeWake(Inflow):
     is_free_wake: ClassVar[bool]
+    trailers: Any
+    n_trailers: int
+    turns: Any
+    far_wake_turns: int | None
+    near_wake_angle: Any
+    release_radius: float
+    update_interval: Any
+    @property
+    def free_wake(self) -> FreeWake: ...
     @property
     def is_full_span(self) -> bool: ...
     @property
@@ -50,6 +72,8 @@ class RelaxationWake(FreeWake):
     name: ClassVar[str]
     is_relaxed: ClassVar[bool]
     references: ClassVar[tuple[str, ...]]
+    @property
+    def relaxed(self) -> RelaxationWake: ...
     turns: float | None = ...
     azimuth_step: Any = ...
     n_stations: int = ...
@@ -93,6 +117,8 @@ class TimeMarchingWake(FreeWake):
     name: ClassVar[str]
     is_marching: ClassVar[bool]
     references: ClassVar[tuple[str, ...]]
+    @property
+    def marching(self) -> TimeMarchingWake: ...
     def trim_model(self) -> RelaxationWake: ...
     turns: float | None = ...
     azimuth_step: Any = ...
@@ -148,6 +174,8 @@ class AnnularInflow(Inflow):
     name: ClassVar[str]
     is_annular: ClassVar[bool]
     references: ClassVar[tuple[str, ...]]
+    @property
+    def annular(self) -> AnnularInflow: ...
     azimuth_step: Any = ...
     n_stations: int = ...
     tip_loss: Literal['prandtl', 'none'] = ...

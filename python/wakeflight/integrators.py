@@ -92,7 +92,7 @@ class IdaIntegrator:
         self.model = model
         self.rtol = rtol
         self.atol = atol_scale * absolute_tolerances(model)
-        self._inputs: _core.Inputs | None = None
+        self._inputs: _core.Inputs
         # a hair more, so that a step of as many degrees counts as that
         self._kept = {name: np.radians(angle) * (1.0 + 1e-6) / model.omega for name, angle in KEPT.items()}
         self._statistics = {"residual_evaluations": 0, "jacobians": 0}
@@ -232,13 +232,14 @@ class FixedIntegrator:
         # a speed that is a state shares the inertia of blades and body
         self.explicit = not (model.flexible or model.has_free_speed)
         self.atol = atol_scale * absolute_tolerances(model)
-        self._solver: _core.FixedStep | None = None
-        self._y: np.ndarray | None = None
+        self._begun = False
+        self._solver: _core.FixedStep
+        self._y: np.ndarray
 
     @property
     def begun(self) -> bool:
         """Whether it has been started."""
-        return self._solver is not None
+        return self._begun
 
     @property
     def schedule(self) -> str:
@@ -254,7 +255,7 @@ class FixedIntegrator:
 
     def memory(self) -> bytes:
         """State, rates at the last stages, where dF/dy was found, counted work; nothing before the first step."""
-        return b"" if self._solver is None else self._solver.memory()
+        return self._solver.memory() if self._begun else b""
 
     def recall(self, t: float, y: np.ndarray, memory: bytes) -> None:
         """Go on at (t, y); without a memory as from a start there."""
@@ -269,7 +270,7 @@ class FixedIntegrator:
 
     def start(self, t: float, y: np.ndarray, y_dot: np.ndarray) -> None:
         """Begin at a state; its rate is found by the solver."""
-        if self._solver is None:
+        if not self._begun:
             self._begin(t, y)
 
     def _begin(self, t: float, y: np.ndarray) -> None:
@@ -278,11 +279,11 @@ class FixedIntegrator:
             self._solver = _core.FixedStep.explicit(core, t, y, self.rtol, self.atol)
         else:
             self._solver = _core.FixedStep(core, t, y, self.rtol, self.atol, self.NEWTON_SHARE, np.radians(self.KEPT))
-        self._y = y
+        self._y, self._begun = y, True
 
     def consistent(self, t: float, y: np.ndarray, inputs: _core.Inputs) -> np.ndarray:
         """y_dot that satisfies F = 0 at the present state; the derivatives found for it serve the step that follows."""
-        if self._solver is None:
+        if not self._begun:
             self._begin(t, y)
         self._solver.prepare(self.model.core, inputs)
         return self._solver.rate()
@@ -313,7 +314,7 @@ class FixedIntegrator:
             "solver_steps",
             "halved_steps",
         )
-        counted = (0,) * len(names) if self._solver is None else self._solver.counters()
+        counted = self._solver.counters() if self._begun else [0] * len(names)
         return dict(zip(names, counted, strict=True))
 
 

@@ -65,7 +65,7 @@ def stall_along_span(airfoil: Mapping[str, Any], stations: np.ndarray) -> StallA
 
 def table_end(airfoil: Mapping[str, Any]) -> float:
     """Mach number to which all section tables of a blade reach."""
-    return min(table[name]["y"][-1] for table in airfoil["tables"] for name in ("cl", "cd", "cm"))
+    return float(min(table[name]["y"][-1] for table in airfoil["tables"] for name in ("cl", "cd", "cm")))
 
 
 def stall_angles(airfoil: Mapping[str, Any]) -> StallAngles:

@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from importlib import resources
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
@@ -70,6 +70,23 @@ class Maneuver:
     control: Augmentation | None = None
     off_trim: bool = False
 
+    if TYPE_CHECKING:
+        # what it is made of is more than what it then holds
+        def __init__(
+            self,
+            name: str,
+            corners_of: Mapping[str, Sequence[Corner]] | Sequence[tuple[str, Sequence[Corner]]],
+            revolutions: float | None = None,
+            seconds: float | None = None,
+            notes: str = "",
+            references: tuple[str, ...] = (),
+            travel_in: float | None = None,
+            rotor_speed: float | None = None,
+            shipped: bool = False,
+            adapted: tuple[str, ...] = (),
+            control: Augmentation | None = None,
+        ) -> None: ...
+
     def __post_init__(self) -> None:
         """Check names, times and values."""
         try:
@@ -108,16 +125,13 @@ class Maneuver:
             self._check_begins(self.seconds)
 
     @cached_property
-    def _histories(self) -> tuple[tuple[int, np.ndarray, np.ndarray, np.ndarray], ...]:
+    def _histories(self) -> tuple[tuple[int, np.ndarray, np.ndarray, list[float]], ...]:
         """For each stick that moves: its place among the sticks, corner times [s], inches, slopes of the pieces [in/s]."""
-        return tuple(
-            (
-                STICKS.index(stick),
-                *(np.array(each, dtype=float) for each in zip(*corners, strict=True)),
-                _slopes(corners),
-            )
-            for stick, corners in self.corners_of
-        )
+        found = []
+        for stick, corners in self.corners_of:
+            times, inches = (np.array(each, dtype=float) for each in zip(*corners, strict=True))
+            found.append((STICKS.index(stick), times, inches, _slopes(corners)))
+        return tuple(found)
 
     def _check_begins(self, end: float) -> None:
         """Refuse a stick that would first move when the flight is over."""
@@ -171,7 +185,7 @@ class Maneuver:
             sticks[stick] = np.interp(t, times, inches)
         return sticks
 
-    def stick(self, t: float, trim_in: Sequence[float]) -> np.ndarray:
+    def stick(self, t: float, trim_in: Sequence[float] | np.ndarray) -> np.ndarray:
         """Sticks (4,) [in] from the stop at time `t` [s], about the trim sticks `trim_in` (4,) [in]."""
         sticks: np.ndarray = np.asarray(trim_in, dtype=float) + self.offset(t)
         return sticks
@@ -241,7 +255,7 @@ class Maneuver:
 
     def check_travel(
         self,
-        trim_in: Sequence[float],
+        trim_in: Sequence[float] | np.ndarray,
         travel_in: Sequence[float],
         shipped: bool | None = None,
         rate_limit_in: Sequence[float] | None = None,

@@ -6,15 +6,15 @@ from __future__ import annotations
 import json
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, ClassVar, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
 from . import _core
 from .aircraft import Aircraft
-from .condition import FlightCondition, Target
+from .condition import CompleteCondition, Target
 from .errors import InputError
-from .inflow import InflowModel, RelaxationWake
+from .inflow import Flown, Inflow, InflowModel, RelaxationWake
 from .monitors import Bounds, bounds
 from .results import disk
 from .rotor_speed import SHARES, Clock, Corners, FreeClock, clock_of
@@ -22,7 +22,9 @@ from .units import STANDARD_GRAVITY
 
 ROLL, PITCH, YAW = 4, 5, 6
 """Places of the attitude among the unknowns of a trim of an aircraft."""
-BALANCES = tuple((name, ()) for name in ("force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z"))
+BALANCES: Equations = tuple(
+    (name, ()) for name in ("force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z")
+)
 
 Equations = tuple[tuple[str, tuple[float, ...]], ...]
 """Name and numbers of every equation asked for, SI."""
@@ -40,13 +42,33 @@ class Question:
 class CompiledRotor:
     """What the exchanges with a wake ask of a compiled model: the rotor's constants, its grid, the wake's options."""
 
-    aircraft: Any
-    inflow: InflowModel
-    core: Any
-    speed_of_sound: float
-    rotor_speed: Corners
-    n_harmonics: int
-    """Harmonics of the blades' periodic motion in its trims."""
+    # of frozen dataclasses: read alone
+    if TYPE_CHECKING:
+
+        @property
+        def aircraft(self) -> Flown:
+            """Aircraft or rotor."""
+
+        @property
+        def inflow(self) -> Inflow:
+            """The inflow model."""
+
+        @property
+        def core(self) -> _core.System:
+            """The compiled system."""
+
+        @property
+        def speed_of_sound(self) -> float:
+            """Speed of sound [m/s]."""
+
+        @property
+        def rotor_speed(self) -> Corners:
+            """Time [s] and share of the nominal rotor speed."""
+
+        @property
+        def n_harmonics(self) -> int:
+            """Harmonics of the blades' periodic motion in its trims."""
+
     n_controls: ClassVar[int]
     """How many controls stand at the head of the unknowns."""
 
@@ -58,7 +80,7 @@ class CompiledRotor:
     @property
     def omega(self) -> float:
         """Nominal rotor speed [rad/s]."""
-        return self.rotor["omega"]
+        return float(self.rotor["omega"])
 
     @cached_property
     def clock(self) -> Clock:
@@ -70,7 +92,7 @@ class CompiledRotor:
     @property
     def tip_speed(self) -> float:
         """Nominal tip speed [m/s]."""
-        return self.rotor["omega"] * self.rotor["radius"]
+        return float(self.rotor["omega"] * self.rotor["radius"])
 
     @property
     def has_free_speed(self) -> bool:
@@ -92,7 +114,7 @@ class CompiledRotor:
     @property
     def n_blades(self) -> int:
         """Number of blades."""
-        return self.rotor["n_blades"]
+        return int(self.rotor["n_blades"])
 
     @property
     def hand(self) -> float:
@@ -122,7 +144,7 @@ class CompiledRotor:
     @cached_property
     def wake_options(self) -> str:
         """Options of the free wake as the core reads them (JSON)."""
-        return json.dumps(self.inflow.core_options(self.aircraft))
+        return json.dumps(self.inflow.free_wake.core_options(self.aircraft))
 
     @property
     def rotor_tables(self) -> dict[str, Any]:
@@ -155,7 +177,7 @@ class CompiledRotor:
     @cached_property
     def bounds(self) -> Bounds:
         """What the motion of this rotor can give at most; without a wake its vortices have the cores of a default one."""
-        wake = self.inflow if self.inflow.is_free_wake else RelaxationWake()
+        wake = self.inflow.free_wake if self.inflow.is_free_wake else RelaxationWake()
         return bounds(self.rotor, self.rotor_tables, self.speed_of_sound, wake, self.has_thin_sections)
 
     @cached_property
@@ -209,23 +231,17 @@ def setting(
     return json.dumps(whole | other)
 
 
-def flight_regime(aircraft: Aircraft, condition: FlightCondition) -> str:
+def flight_regime(aircraft: Aircraft, condition: CompleteCondition) -> str:
     """Regime of the main rotor in a flight condition, known before the trim: see `FlightCondition.regime`."""
     return condition.regime(float(aircraft.rotor.omega) * float(aircraft.rotor.radius))
 
 
-Compiled = TypeVar("Compiled", bound=CompiledRotor)
-
-
-def at_speed(model: Compiled, corners: Corners) -> Compiled:
-    """`model` with its rotor at the speed of `corners`; itself where there are none. A free wake has none yet."""
-    if not corners:
-        return model
+def turning_core(model: CompiledRotor, corners: Corners) -> _core.System:
+    """The system of `model` with its rotor at the speed of `corners`. A free wake has none yet."""
     if not model.inflow.is_dynamic:
         allowed = f"must be constant with a free wake (inflow = {model.inflow.name}); it needs inflow = dynamic"
         raise InputError.of("rotor_speed", "a history", allowed)
-    core = model.core.with_rotor_speed([(t, share * model.omega) for t, share in corners])
-    return replace(model, core=core, rotor_speed=corners)
+    return model.core.with_rotor_speed([(t, share * model.omega) for t, share in corners])
 
 
 @dataclass(frozen=True)
@@ -233,7 +249,7 @@ class Model(CompiledRotor):
     """Aircraft, condition and inflow model compiled into F(y_dot, y, u; t) = 0."""
 
     aircraft: Aircraft
-    condition: FlightCondition
+    condition: CompleteCondition
     inflow: InflowModel
     core: _core.System
     data: dict[str, Any]
@@ -252,7 +268,7 @@ class Model(CompiledRotor):
     def build(
         cls,
         aircraft: Aircraft,
-        condition: FlightCondition,
+        condition: CompleteCondition,
         inflow: InflowModel,
         target: Target | None = None,
         n_harmonics: int = 8,
@@ -273,7 +289,7 @@ class Model(CompiledRotor):
     @property
     def hand(self) -> float:
         """-1 of a clockwise rotor, which the core computes as its mirror image."""
-        return self.rotor["hand"]
+        return float(self.rotor["hand"])
 
     @property
     def side(self) -> float:
@@ -284,7 +300,10 @@ class Model(CompiledRotor):
     def question(self) -> Question:
         """The condition: balances, lateral convention, and what is met with parts of the path left free."""
         c = self.condition
-        equations: list = [*BALANCES, ("convention", (c.bank or 0.0, c.sideslip or 0.0, c.bank_share))]
+        equations: list[tuple[str, tuple[float, ...]]] = [
+            *BALANCES,
+            ("convention", (c.bank or 0.0, c.sideslip or 0.0, c.bank_share)),
+        ]
         free = []
         if self.target is not None:
             equations.append((self.target.name, (self.target.value,)))
@@ -325,7 +344,7 @@ class Model(CompiledRotor):
 
     def at_speed(self, corners: Corners) -> Model:
         """This model with a rotor speed in time."""
-        return at_speed(self, corners)
+        return self if not corners else replace(self, core=turning_core(self, corners), rotor_speed=corners)
 
     @property
     def has_free_speed(self) -> bool:
@@ -347,7 +366,8 @@ class Model(CompiledRotor):
     @property
     def rotor_tables(self) -> dict[str, Any]:
         """Blade and airfoil as the core was given them."""
-        return self.data["rotor"]
+        found: dict[str, Any] = self.data["rotor"]
+        return found
 
     def linearised(self) -> _core.Linearised:
         """Room for the derivatives of F."""
@@ -356,12 +376,13 @@ class Model(CompiledRotor):
     def pitch_controls(self, stick: np.ndarray) -> np.ndarray:
         """theta_1c, theta_1s, theta_0, theta_tr [rad] for sticks [m]."""
         rigging = self.data["rigging"]
-        return np.asarray(rigging["offset"]) + np.asarray(rigging["matrix"]) @ stick
+        found: np.ndarray = np.asarray(rigging["offset"]) + np.asarray(rigging["matrix"]) @ stick
+        return found
 
     @property
     def accessory_power(self) -> float:
         """Power of accessories [W]."""
-        return self.data["accessory_power"]
+        return float(self.data["accessory_power"])
 
 
 def _rebuilt(built: tuple[Any, ...], corners: Corners, drive: str) -> Model:

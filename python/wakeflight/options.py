@@ -15,7 +15,7 @@ from functools import cache
 from typing import Any
 
 from . import _core
-from .errors import InputError
+from .errors import InputError, known
 from .regime import REGIMES
 from .units import quantity
 
@@ -138,17 +138,17 @@ class Option:
         return f"{self.shown(self.default)}"
 
     def _allows(self, number: float) -> bool:
-        low, high, above = self.range
+        low, high, above = known(self.range)
         # an angle of 3600 deg may be off by its rounding
         high = high * (1.0 + 1e-12) if self.is_angle else high
         return low <= number <= high and not (above and number == low)
 
     @property
     def _allowed(self) -> str:
-        low, high, above = self.range
+        low, high, above = known(self.range)
         if self.is_angle:
-            low, high = (f"{math.degrees(each):.6g} deg" for each in (low, high))
-            return f"lie above {low} and at most {high}" if above else f"lie between {low} and {high}"
+            least, most = (f"{math.degrees(each):.6g} deg" for each in (low, high))
+            return f"lie above {least} and at most {most}" if above else f"lie between {least} and {most}"
         return f"be {'a whole number' if self.kind == 'whole' else 'a number'} between {low:g} and {high:g}"
 
 

@@ -25,7 +25,8 @@ class Progress:
         self._stream = stream or sys.stderr
         self._bars: Any = None
         self._task: Any = None
-        self._name, self._total, self._done = "", None, 0.0
+        self._name, self._done = "", 0.0
+        self._total: float | None = None
         self._start = self._next_line = 0.0
         if bars and self._stream.isatty():
             from rich.console import Console

@@ -12,7 +12,7 @@ import numpy as np
 
 from .attitude import euler_angles
 from .control import ControlLog
-from .errors import NumericalFailure
+from .errors import NumericalFailure, known
 from .maneuvers import Maneuver
 from .model import Model
 from .modes import mode_labels
@@ -187,7 +187,7 @@ class Recorder:
         position, circulation, core_radius = tips
         arrays = {"wake": position, "wake_circulation": circulation, "wake_core": at_nodes(core_radius)}
         if self.keeps_sheets:
-            arrays["wake_sheet"], arrays["wake_sheet_circulation"] = self.exchange.lattice(step)
+            arrays["wake_sheet"], arrays["wake_sheet_circulation"] = known(self.exchange.lattice(step))
         self._wakes.append(step, arrays)
 
     def dataset(
@@ -250,16 +250,18 @@ class Recorder:
         n = self.n_recorded
         power, time, energy = self.scalars["load_power"][:n], self.time[:n], self.scalars["energy"][:n]
         work = np.concatenate([[0.0], np.cumsum(0.5 * (power[1:] + power[:-1]) * np.diff(time))])
-        return energy - energy[0] - work
+        found: np.ndarray = energy - energy[0] - work
+        return found
 
     @property
     def rotor_speed(self) -> np.ndarray:
         """Speed of the rotor (time,) [rad/s]."""
-        return self.scalars["rotor_speed"][: self.n_recorded]
+        found: np.ndarray = self.scalars["rotor_speed"][: self.n_recorded]
+        return found
 
     def vortex_distance(self) -> np.ndarray | None:
         """Smallest distance of a tip vortex from a blade (time,), in core radii; None where the wake does not tell it."""
-        distance = self.scalars["vortex_blade_distance"][: self.n_recorded].copy()
+        distance: np.ndarray = self.scalars["vortex_blade_distance"][: self.n_recorded].copy()
         if not np.isfinite(distance[1:]).any():
             return None
         if np.isnan(distance[0]):
@@ -294,7 +296,7 @@ class Recorder:
         counted = self.exchange.counters
         if not counted:
             return {}
-        trim = self.start.wake.counters
+        trim = known(self.start.wake).counters
         return counted | {
             "segment_evaluations_trim": trim["wake_segment_evaluations"],
             "relaxation_iterations_trim": trim["relaxation_iterations"],
@@ -387,15 +389,17 @@ def keeps_sheets(model: Model, n_steps: int) -> bool:
         return False
     n = model.steps_per_revolution
     snapshots = 1 + SNAPSHOTS_PER_REVOLUTION * n_steps // n
-    trailers = model.inflow.n_trailers or model.stations.size + 1
-    return 4 * snapshots * model.n_blades * trailers * (1 + n * model.inflow.turns) <= LARGEST_SHEET
+    wake = model.inflow.free_wake
+    trailers = wake.n_trailers or model.stations.size + 1
+    return bool(4 * snapshots * model.n_blades * trailers * (1 + n * wake.turns) <= LARGEST_SHEET)
 
 
 def at_nodes(of_segments: np.ndarray) -> np.ndarray:
     """Core radii at the nodes (n_blades, n_ages) from those of the segments between them: mean of the squares."""
     squared = of_segments**2
     ends = np.concatenate([squared[:, :1], squared, squared[:, -1:]], axis=1)
-    return np.sqrt((ends[:, 1:] + ends[:, :-1]) / 2)
+    found: np.ndarray = np.sqrt((ends[:, 1:] + ends[:, :-1]) / 2)
+    return found
 
 
 def convergence_attributes(phase: ConvergencePhase) -> dict[str, Any]:

@@ -160,8 +160,9 @@ class HistoryClock(_Stateless):
 
     def time(self, step: Time) -> Time:
         """Time [s] after `step` steps."""
-        found = np.array([self.core.time(psi) for psi in np.ravel(step) * self.delta_psi])
-        return found if np.ndim(step) else float(found[0])
+        found: Any = np.array([self.core.time(psi) for psi in np.ravel(step) * self.delta_psi])
+        told: Any = found if np.ndim(step) else float(found[0])
+        return told  # type: ignore[no-any-return]  # a number or an array, as `step` is
 
     def duration(self, step: int) -> float:
         """Length [s] of the step that begins after `step` steps."""
@@ -216,7 +217,8 @@ class FreeClock:
         """Time [s] after `step` steps: exact for the present one and the next, beyond them at the present speed."""
         ahead = step - self._step
         if np.ndim(step) == 0 and ahead in (0, 1):
-            return self._t + self._ahead() if ahead else self._t
+            now: Any = self._t + self._ahead() if ahead else self._t
+            return now  # type: ignore[no-any-return]  # a number, as `step` is
         return self._t + ahead * (self.delta_psi / self._turn[1])
 
     def duration(self, step: int) -> float:
@@ -254,4 +256,5 @@ def shares(corners: Corners, t: np.ndarray) -> np.ndarray:
     if not corners:
         return np.ones(np.shape(t))
     times, values = np.array(corners).T
-    return np.interp(t, times, values)
+    found: np.ndarray = np.interp(t, times, values)
+    return found

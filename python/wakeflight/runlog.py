@@ -110,7 +110,7 @@ class LogWriter:
         self.path = path
         dtype = layout(fields)
         self.window = np.zeros(max(1, self.WINDOW // dtype.itemsize), dtype)
-        self._bytes, self._size = memoryview(self.window).cast("B"), dtype.itemsize
+        self._bytes, self._size = memoryview(self.window.data).cast("B"), dtype.itemsize
         self._steps, self._sums = self.window["step"], self.window["crc"]
         self._filled = self._written = 0
         start = head(fields)

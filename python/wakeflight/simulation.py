@@ -23,7 +23,7 @@ from .arguments import checked
 from .attitude import euler_angles
 from .control import Augmentation, Chain, Sensors, augmentation
 from .engine import Engine, Turning, turning
-from .errors import InputError, NumericalFailure
+from .errors import InputError, NumericalFailure, known
 from .exchange import Exchange, exchange_of
 from .inflow import InflowModel, inflow_model, like
 from .integrators import INTEGRATORS, RTOL
@@ -87,6 +87,8 @@ class Simulation(Stepping):
     After a `NumericalFailure` a simulation is at no definite moment: restore a snapshot to go on.
     """
 
+    model: Model
+
     @checked
     def __init__(
         self,
@@ -122,6 +124,8 @@ class Simulation(Stepping):
         sim._prepare(start, flight_model(start, inflow, turned), integrator, rtol, stabilator, turned, made)
         return sim
 
+    seconds_before: dict[str, float]
+
     def converge(self, progress: Progress | Silent) -> None:
         """Start the exchange; a marching wake goes through its convergence phase."""
         self.exchange, self.phase = begun(self.model, self.start, progress)
@@ -154,7 +158,7 @@ class Simulation(Stepping):
         self.integrator, self.rtol, self.stabilator = integrator, rtol, stabilator
         self.control = control
         self.chain = None if control.nothing else Chain(control, start)
-        self.seconds_before: dict[str, float] = {}
+        self.seconds_before = {}
         solver = INTEGRATORS[integrator](model, rtol, atol_scale=rtol / RTOL)
         # the states of a flight may be more than those of its trim
         y = model.core.trim_state(start.problem, start.x, 0.0)[0] if model.has_free_speed else start.state(0.0)
@@ -169,7 +173,7 @@ class Simulation(Stepping):
         """What the engines give over the step that begins."""
         collective = float(self._stick[STICKS.index("collective")])
         speed = float(self._y[self.model.layout["turn"][0] + 1])
-        self._engine = self.engine.given(self.t, self.delta_t, speed, collective)
+        self._engine = known(self.engine).given(self.t, self.delta_t, speed, collective)
 
     def _turned(self, t: float) -> None:
         """The clock follows the rotor, the engines it and the stick."""
@@ -234,7 +238,7 @@ class Simulation(Stepping):
         model = self.model
 
         def measure() -> tuple[np.ndarray, dict[str, Any]]:
-            inputs = self._inputs(t, self.chain.reached, np.zeros(4))[0]
+            inputs = self._inputs(t, known(self.chain).reached, np.zeros(4))[0]
             rate = model.core.consistent_rate(t, y, inputs)
             out = model.core.outputs(t, y, rate, inputs)
             return rate, out | {"torque": -model.hand * out["hub_moment"][2]}
@@ -263,18 +267,19 @@ class Simulation(Stepping):
         for name, moved, value, full in zip(STICKS, asked, inches, self.start.aircraft.stick_travel_in, strict=True):
             if moved and not -1e-9 <= value <= full + 1e-9:
                 raise InputError.of(name, f"{value:.4g} in from the stop", f"must lie between 0 and {full:g} in")
-        return INCH * inches
+        found: np.ndarray = INCH * inches
+        return found
 
     def snapshot(self) -> Snapshot:
         """Everything that what comes depends on; with `ida` the integrator begins anew at this moment."""
-        scalars = {
+        scalars: dict[str, Any] = {
             "step": self._step,
             "stick": self._stick.tolist(),
             "stabilator": self._incidence,
             **self.clock.memory(),
         }
         if self.engine is not None:
-            scalars |= {"engine": list(self._engine), "engine_memory": self.engine.memory()}
+            scalars |= {"engine": list(known(self._engine)), "engine_memory": self.engine.memory()}
         parts = {
             "y": np.asarray(self._y, "<f8").tobytes(),
             "integrator": self.solver.memory(),
@@ -406,13 +411,12 @@ def begun(model: Model, start: Trim, progress: Progress | Silent) -> tuple[Excha
     n = model.steps_per_revolution
     core, trimmed = model.core, (start.problem, start.x)
     exchange = exchange_of(model, start.wake, lambda: core.trim_motion(*trimmed, n), core.trim_sections(*trimmed, 0.0))
-    return exchange, converge(exchange, start, progress) if model.inflow.is_marching else ConvergencePhase()
+    return exchange, converge(model, exchange, start, progress) if model.inflow.is_marching else ConvergencePhase()
 
 
-def converge(marching: Exchange, start: Trim, progress: Progress | Silent) -> ConvergencePhase:
+def converge(model: Model, marching: Exchange, start: Trim, progress: Progress | Silent) -> ConvergencePhase:
     """Advance the wake at frozen states and controls; the circulation follows the inflow."""
-    model = marching.model
-    revolutions = model.inflow.convergence_revolutions
+    revolutions = model.inflow.marching.convergence_revolutions
     phase = ConvergencePhase(before=start.inflow_map)
     clock = time.perf_counter()
     progress.phase("convergence of the wake", revolutions)

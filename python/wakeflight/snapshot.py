@@ -34,7 +34,7 @@ class Snapshot:
     @property
     def step(self) -> int:
         """Coupling steps flown."""
-        return self.scalars["step"]
+        return int(self.scalars["step"])
 
     @property
     def size(self) -> int:

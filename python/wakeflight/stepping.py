@@ -33,7 +33,7 @@ class Instant:
 class Observer(Protocol):
     """What hangs on a simulation and cannot change it: a recorder, a monitor, a live view."""
 
-    def __call__(self, instant: Instant) -> None:
+    def __call__(self, instant: Instant, /) -> None:
         """A coupling step begins."""
 
 

@@ -43,7 +43,8 @@ class Ramp:
 
     def rate(self, t: float) -> np.ndarray:
         """Rates (4,) [m/s]."""
-        return (self.target - self.start) / (self.end - self.begin)
+        found: np.ndarray = (self.target - self.start) / (self.end - self.begin)
+        return found
 
     def pieces(self, t0: float, t1: float) -> list[tuple[float, float]]:
         """One."""

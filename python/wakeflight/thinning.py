@@ -93,4 +93,5 @@ def nearest(times: np.ndarray, inches: np.ndarray, stops: np.ndarray) -> np.ndar
     beside = np.concatenate([[0.0], width[1:-1] / 6.0])
     values[1:-1] = inner / diagonal if n == 1 else solveh_banded(np.array([beside, diagonal]), inner)
     # a least-squares fit overshoots beside a jump: not beyond where the stick itself goes, such as its stop
-    return np.clip(values, s.min(), s.max())
+    found: np.ndarray = np.clip(values, s.min(), s.max())
+    return found

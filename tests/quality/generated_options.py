@@ -99,7 +99,7 @@ def _members(node):
     for member in node.body:
         if isinstance(member, ast.AnnAssign) and "ClassVar" in ast.unparse(member.annotation):
             yield f"{member.target.id}: {ast.unparse(member.annotation)}"
-        elif isinstance(member, ast.AnnAssign) and node.name == "Flown":
+        elif isinstance(member, ast.AnnAssign) and node.name in ("Inflow", "FreeWake"):
             yield ast.unparse(member)
         elif isinstance(member, ast.FunctionDef) and not member.name.startswith("_"):
             yield from _signature(member, "").split("\n")

@@ -41,7 +41,7 @@ class Linear(TrimOnWake):
 class Follows:
     """A wake that gives the unknowns back, and stops the numbers where it is told to."""
 
-    circulation = None
+    circulation = in_trim = None
 
     def __init__(self, fails_in=None):
         self.inflow_map, self.change, self.passes, self.fails_in = np.zeros(1), np.inf, 0, fails_in

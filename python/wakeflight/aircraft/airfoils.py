@@ -4,10 +4,11 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 from .tables import HIGHEST_MACH
 
-Grid = dict[str, list]
+Grid = dict[str, list[Any]]
 """{x: alpha [rad], y: Mach, values}."""
 
 LINEAR_LIMIT = math.radians(30.0)
@@ -42,7 +43,7 @@ def ascending(name: str, grid: Grid) -> Grid:
 
 def covers(grid: Grid) -> bool:
     """Whether the angles of a table go all the way round."""
-    return grid["x"][0] <= -math.pi + 1e-9 and grid["x"][-1] >= math.pi - 1e-9
+    return bool(grid["x"][0] <= -math.pi + 1e-9 and grid["x"][-1] >= math.pi - 1e-9)
 
 
 def extended(grids: dict[str, Grid], way: str) -> tuple[dict[str, Grid], list[str]]:

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from ..errors import InputError
+from ..errors import InputError, known
 from ..units import STANDARD_GRAVITY, shown
 from .doubts import doubts_of_aircraft
 from .mass import airframe_inertia, blade_mass
@@ -81,14 +81,14 @@ def _masses(spec: AircraftFile, parts: dict[str, Any], refuse: Any) -> None:
             raise refuse(f"{where}.weight", given, f"must be above the weight of the blades, {least}")
     loadings = {"loading": spec.loading}
     for name, named in spec.loadings.items():
-        given = {key: value for key, value in named if value is not None}
-        loadings[f"loadings.{name}"] = spec.loading.model_copy(update=given)
+        own = {key: value for key, value in named if value is not None}
+        loadings[f"loadings.{name}"] = spec.loading.model_copy(update=own)
     for where, loading in loadings.items():
         _inertia(where, loading, spec, blades, refuse)
 
 
 def _inertia(where: str, loading: Loading, spec: AircraftFile, blades: float, refuse: Any) -> None:
-    group = loading.inertia
+    group = known(loading.inertia)
     inertia = [float(group.ixx), float(group.iyy), float(group.izz), float(group.ixz)]
     _body(f"{where}.inertia", inertia, "", refuse)
     if group.of == "gross":
@@ -97,7 +97,7 @@ def _inertia(where: str, loading: Loading, spec: AircraftFile, blades: float, re
             float(spec.rotor.hub[1] - loading.cg_buttline),
             float(loading.cg_waterline - spec.rotor.hub[2]),
         ]
-        weight = loading.weight if loading.weight is not None else spec.condition.weight
+        weight = known(loading.weight if loading.weight is not None else spec.condition.weight)
         airframe = airframe_inertia(inertia, float(weight) / STANDARD_GRAVITY, blades, hub)
         _body(f"{where}.inertia", airframe, "without the blades, as masses at the hub, ", refuse)
 
@@ -158,7 +158,7 @@ def _surface(name: str, table: Any, surface: dict[str, Any]) -> list[str]:
 
 def _fuselage(spec: AircraftFile, loads: dict[str, Any]) -> list[str]:
     """Drag that brakes at every angle (a body takes energy from no steady stream); loads within those of the whole disk."""
-    table = spec.fuselage.aerodynamics
+    table = known(spec.fuselage).aerodynamics
     names = {"drag": "Dq", "lift": "Lq", "side": "Yq", "pitching": "Mq", "rolling": "Rq", "yawing": "Nq"}
     radius = float(spec.rotor.radius)
     for name, column in names.items():

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from ..errors import known
 from ..units import STANDARD_GRAVITY
 from . import tables
 from .blade_data import blade_data
@@ -42,22 +43,23 @@ def assembled(spec: AircraftFile, parts: dict[str, Any], loading: Loading, gross
 
     def from_cg(station: Sequence[float]) -> list[float]:
         return [
-            float(loading.cg_station - station[0]),
-            float(station[1] - loading.cg_buttline),
-            float(loading.cg_waterline - station[2]),
+            float(known(loading.cg_station) - station[0]),
+            float(station[1] - known(loading.cg_buttline)),
+            float(known(loading.cg_waterline) - station[2]),
         ]
 
-    def placed(name: str, station: Sequence[float] | None) -> dict[str, Any] | None:
+    def placed(name: str, station: Any) -> dict[str, Any] | None:
         return None if parts[name] is None else {"position": from_cg(station), **parts[name]}
 
     rotor = spec.rotor
     hub = from_cg(rotor.hub)
-    inertia = [float(each) for each in (loading.inertia.ixx, loading.inertia.iyy, loading.inertia.izz)]
-    inertia.append(float(loading.inertia.ixz))
-    if loading.inertia.of == "gross":
+    given = known(loading.inertia)
+    inertia = [float(each) for each in (given.ixx, given.iyy, given.izz)]
+    inertia.append(float(given.ixz))
+    if given.of == "gross":
         blades = int(rotor.n_blades) * blade_mass(parts["blade"]["structure"])
         # published with a weight, whatever is flown: that of the loading, else that of the file's condition
-        weight = loading.weight if loading.weight is not None else spec.condition.weight
+        weight = known(loading.weight if loading.weight is not None else spec.condition.weight)
         mass = float(weight) / STANDARD_GRAVITY
         inertia = airframe_inertia(inertia, mass, blades, hub)
     whole = {
@@ -163,7 +165,7 @@ def _schedule(stabilator: Stabilator, collective_travel: float) -> dict[str, Any
         "coll_breaks_pct": list(rule.coll_breaks),
         "v2": [rule.v2[0] / _KNOT, rule.v2[1] / _KNOT, rule.v2[2] * deg_per_kt],
         "q_gain": float(rule.q_gain),
-        "limits": list(stabilator.incidence_limits),
+        "limits": list(known(stabilator.incidence_limits)),
         "rate_limit": float(rule.rate_limit),
         "collective_travel": float(collective_travel),
     }
@@ -173,7 +175,7 @@ def _tail_rotor(spec: AircraftFile) -> dict[str, Any] | None:
     tail = spec.tail_rotor
     if tail is None:
         return None
-    coning = 0.0 if tail.coning is None else float(tail.coning) * float(tail.tan_delta3)
+    coning = 0.0 if tail.coning is None else float(tail.coning) * float(known(tail.tan_delta3))
     return {
         "radius": float(tail.radius),
         "omega": float(tail.omega),
@@ -201,7 +203,7 @@ def _interference(spec: AircraftFile) -> dict[str, Any] | None:
     wash.q_ratio_stabilator.refuse_unused(("alpha", "q_ratio"))
     wash.q_ratio_fin.refuse_unused(("psi", "q_ratio"))
 
-    def factor(base: str) -> dict[str, list]:
+    def factor(base: str) -> dict[str, list[Any]]:
         return tables.grid(wash.rotor_wash, "chi", "a1f", base, "1")
 
     def angle(base: str) -> dict[str, list[float]]:

@@ -7,6 +7,7 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
+from ..errors import known
 from ..units import STANDARD_GRAVITY
 from .rotor_doubts import SEA_LEVEL_DENSITY, in_grid, interpolated
 from .schema import AircraftFile, Loading, TailRotor
@@ -135,7 +136,7 @@ def _power(spec: AircraftFile) -> list[str]:
     if limits.rotor_speed is not None and not limits.rotor_speed[0] <= omega <= limits.rotor_speed[1]:
         low, high = limits.rotor_speed
         warnings.append(f"limits.rotor_speed: rotor.omega, {omega:.4g} rad/s, lies outside {low:.4g} to {high:.4g}")
-    weight, disk = float(spec.condition.weight), math.pi * float(spec.rotor.radius) ** 2
+    weight, disk = float(known(spec.condition.weight)), math.pi * float(spec.rotor.radius) ** 2
     ideal = weight * math.sqrt(weight / (2.0 * SEA_LEVEL_DENSITY * disk))
     powers = {"power": limits.power, "torque": None if limits.torque is None else limits.torque * omega}
     for key, power in powers.items():
@@ -165,7 +166,7 @@ def _loading(name: str, loading: Loading, spec: AircraftFile, parts: dict[str, A
     if not own("cg_waterline") < rotor.hub[2]:
         warnings.append(f"{name}.cg_waterline: not below the hub")
     weight = own("weight")
-    weight = float(spec.condition.weight if weight is None else weight)
+    weight = float(known(spec.condition.weight) if weight is None else weight)
     inertia, mass = own("inertia"), weight / STANDARD_GRAVITY
     for key in ("ixx", "iyy", "izz"):
         gyration = math.sqrt(float(getattr(inertia, key)) / mass) / radius

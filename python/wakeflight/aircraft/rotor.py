@@ -53,17 +53,17 @@ class Rotor:
     @property
     def n_blades(self) -> int:
         """Number of blades."""
-        return self.data["n_blades"]
+        return int(self.data["n_blades"])
 
     @property
     def radius(self) -> float:
         """Radius [m]."""
-        return self.data["blade"]["radius"]
+        return float(self.data["blade"]["radius"])
 
     @property
     def omega(self) -> float:
         """Rotor speed [rad/s]."""
-        return self.data["omega"]
+        return float(self.data["omega"])
 
     @property
     def flexible(self) -> bool:

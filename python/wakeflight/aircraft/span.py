@@ -18,7 +18,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Field, ValidationInfo, model_validator
 
-from ..errors import InputError
+from ..errors import InputError, known
 from ..text import read_text
 from .airfoils import EXTENSIONS, NAMED_WAYS, Grid, analytic_polar, covers, extended
 from .c81 import read_c81
@@ -119,7 +119,7 @@ class Section(Group):
         """Tables as they stand in the file."""
         if self.c81 is not None:
             return self.c81.grids
-        grids = {"cl": by_mach(self.cl), "cd": by_mach(self.cd)}
+        grids = {"cl": by_mach(known(self.cl)), "cd": by_mach(known(self.cd))}
         if self.cm is not None:
             grids["cm"] = by_mach(self.cm)
         else:
@@ -161,17 +161,19 @@ def _placed(sections: Sequence[Section]) -> Sequence[Section]:
         if (section.extent is None) != (sections[0].extent is None):
             raise ValueError("has stations for one section and an extent for another; the way along the span is one")
     if sections[0].extent is None:
-        places = sorted(station for section in sections for station in section.stations)
+        places = sorted(station for section in sections for station in known(section.stations))
         for before, after in itertools.pairwise(places):
             if not after > before:
                 raise ValueError(f"has two sections at the station {after:g} R")
         return sections
     for section in sections:
-        if not section.extent[0] < section.extent[1]:
-            raise ValueError(f"has the extent {list(section.extent)} of {section.name}, which must ascend")
+        extent = known(section.extent)
+        if not extent[0] < extent[1]:
+            raise ValueError(f"has the extent {list(extent)} of {section.name}, which must ascend")
     for inner, outer in itertools.pairwise(sections):
-        if abs(outer.extent[0] - inner.extent[1]) > JOIN:
-            ends = f"{inner.name} ends at {inner.extent[1]:g} R and {outer.name} begins at {outer.extent[0]:g} R"
+        end, begin = known(inner.extent)[1], known(outer.extent)[0]
+        if abs(begin - end) > JOIN:
+            ends = f"{inner.name} ends at {end:g} R and {outer.name} begins at {begin:g} R"
             raise ValueError(f"has extents that do not join, inboard to outboard: {ends}")
     return sections
 
@@ -185,7 +187,7 @@ def along_span(kind: type[Section]) -> Any:
     def placed(sections: list[Section]) -> list[Section]:
         return list(_placed(sections))
 
-    return Annotated[list[kind], BeforeValidator(listed), Field(min_length=1), AfterValidator(placed)]  # type: ignore[valid-type]
+    return Annotated[list[kind], BeforeValidator(listed), Field(min_length=1), AfterValidator(placed)]
 
 
 def keys_of(sections: Sequence[Section]) -> list[str]:
@@ -206,13 +208,14 @@ def span_data(sections: Sequence[Section], radius: float, root_cutout: float, pa
     if len(sections) == 1:
         return {"stations": [0.0], "stepwise": False, "tables": tables}
     if sections[0].extent is None:
-        placed = sorted((float(at) * radius, i) for i, section in enumerate(sections) for at in section.stations)
+        placed = sorted((float(at) * radius, i) for i, section in enumerate(sections) for at in known(section.stations))
         return {"stations": [at for at, _ in placed], "stepwise": False, "tables": [tables[i] for _, i in placed]}
-    first, last = sections[0].extent[0], sections[-1].extent[1]
+    extents = [known(each.extent) for each in sections]
+    first, last = extents[0][0], extents[-1][1]
     if first * radius > root_cutout * (1.0 + JOIN) or last < 1.0 - JOIN:
         allowed = f"extents must cover the blade, {root_cutout / radius:.4g} to 1 R"
         raise InputError.of("rotor.airfoil", f"{first:g} to {last:g} R", allowed, file=path)
-    return {"stations": [float(each.extent[0]) * radius for each in sections], "stepwise": True, "tables": tables}
+    return {"stations": [float(each[0]) * radius for each in extents], "stepwise": True, "tables": tables}
 
 
 def check_span(sections: Sequence[Section], data: dict[str, Any], path: Path) -> list[str]:

@@ -20,7 +20,9 @@ MODELS = (*BLADED, "closed-form")
 
 POSSIBLE = "one rotor with blades (model elastic or rigid) and at most one closed-form tail rotor can be simulated"
 
-RENAMED = {
+Keys = tuple[str, ...]
+
+RENAMED: dict[str, dict[Keys, Keys]] = {
     "rotor": {
         ("position",): ("hub",),
         ("shaft", "forward"): ("shaft_tilt_forward",),
@@ -92,7 +94,8 @@ def _of_version_2(path: Path, rest: dict[str, Any]) -> Written:
     entries = _entries(path, rest)
     data = {key: value for key, value in rest.items() if key not in ("rotor", "main_rotor", "tail_rotor")}
     names: list[str] = []
-    bladed, closed = [], []
+    bladed: list[tuple[str, dict[str, Any]]] = []
+    closed: list[tuple[str, dict[str, Any]]] = []
     for place, entry in entries:
         name, model = entry["name"], entry.get("model")
         if not isinstance(name, str) or not name:

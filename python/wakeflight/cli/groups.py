@@ -222,5 +222,5 @@ def expanded(command: Callable[..., None]) -> Callable[..., None]:
 
     parsed.__signature__ = inspect.Signature(shown)  # type: ignore[attr-defined]
     parsed.__annotations__ = {each.name: each.annotation for each in shown}
-    del parsed.__wrapped__  # type: ignore[attr-defined]
+    del parsed.__wrapped__
     return parsed

@@ -8,7 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..errors import InputError, Interrupted, NumericalFailure, WakeflightError, one_line
+from ..errors import InputError, Interrupted, NumericalFailure, WakeflightError, known, one_line
 
 if TYPE_CHECKING:
     from ..flight_folder import RunFolder
@@ -60,7 +60,7 @@ def fly_once(
     from ..inflow import trim_model
 
     asked = Asked(request.condition, trim_model(request.inflow))
-    maneuver = request.maneuver
+    maneuver = known(request.maneuver)
     control = augmentation(maneuver.control if request.control is None else request.control)
     plan = Plan(
         replace(maneuver, control=None),
@@ -95,7 +95,7 @@ def shown(flown: Callable[[], Any], folder: RunFolder, progress: Progress, drawi
         flight = flown()
     except NumericalFailure as failure:
         if failure.partial is not None:
-            draw(failure.partial.data, folder.saved, progress, drawing)
+            draw(failure.partial.data, known(folder.saved), progress, drawing)
         raise
     except Interrupted as signal:
         kept = "what was found is kept" if folder.saved is None else f"kept in {folder.saved}, incomplete"
@@ -103,7 +103,7 @@ def shown(flown: Callable[[], Any], folder: RunFolder, progress: Progress, drawi
         raise Interrupted(said, signal.exit_code - 128, signal.partial) from signal
     if folder.had_ended and (folder.folder / "report.html").is_file():
         return flight
-    draw(flight.data, folder.saved, progress, drawing)
+    draw(flight.data, known(folder.saved), progress, drawing)
     progress(_pace(flight.data))
     return flight
 

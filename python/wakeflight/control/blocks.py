@@ -60,8 +60,10 @@ class Block(Controller):
             names = ", ".join(term.argument for term in self.terms)
             raise InputError.of(self.name, "no gain", f"needs at least one of {names}")
         self.outputs = tuple(name for name in STICKS if any(self.terms[k].stick == name for k in self.sizes))
-        constants = (gains.seconds(f"{self.name}.{name}", text) for name, text in (("lag", lag), ("washout", washout)))
-        self.constants = tuple(constants)
+        self.constants = (
+            gains.seconds(f"{self.name}.lag", lag),
+            gains.seconds(f"{self.name}.washout", washout),
+        )
         self.limit = gains.authority(f"{self.name}.authority", authority, (10.0,) * 4).tolist()
         self._forget()
 
@@ -212,7 +214,7 @@ SLOWEST_TURN = 10.0
 def turning(s: Sensors) -> float:
     """Yaw rate beyond that of a coordinated turn at this bank, r - g sin(roll) cos(pitch)/V [rad/s]."""
     coordinated = STANDARD_GRAVITY * math.sin(s.roll) * math.cos(s.pitch) / max(s.airspeed, SLOWEST_TURN)
-    return s.r - coordinated
+    return float(s.r - coordinated)
 
 
 class TurnCoordination(Block):

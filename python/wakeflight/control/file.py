@@ -96,7 +96,7 @@ def from_description(told: Mapping[str, Any]) -> Augmentation:
         tuple(controllers),
         told.get("authority"),
         None if servos is None else Servos(**servos),
-        tuple(told.get("scale", (1.0,) * 4)),  # type: ignore[arg-type]
+        tuple(told.get("scale", (1.0,) * 4)),
     )
     if found.described() != dict(told):
         raise InputError.of(

@@ -117,7 +117,7 @@ class Follow(Controller):
         self.sums["speed"] += dt * missing
         pitch = self.rest["pitch"] - hands.accelerating * (missing + 0.1 * hands.slow * self.sums["speed"])
         # in a turn the nose rises with r tan(phi)
-        return hands.attitude * (pitch - s.pitch) + s.r * math.tan(max(-1.2, min(1.2, s.roll)))
+        return float(hands.attitude * (pitch - s.pitch) + s.r * math.tan(max(-1.2, min(1.2, s.roll))))
 
     def _asked(self, name: str, t: float, rest: float) -> tuple[float, float]:
         """Value of the path and its slope at `t`; `rest` where it is not given."""

@@ -50,7 +50,7 @@ class PitchBiasActuator(Controller):
         q = min(law["rate_limit"], max(-law["rate_limit"], sensors.q))
         faster = min(law["airspeed_range"], max(0.0, sensors.airspeed - law["airspeed_from"]))
         asked = law["bias"] + law["attitude_gain"] * theta + law["rate_gain"] * q + law["airspeed_gain"] * faster
-        return min(law["authority"], max(-law["authority"], asked))
+        return float(min(law["authority"], max(-law["authority"], asked)))
 
     def step(self, t: float, sensors: Sensors, stick: Mapping[str, float]) -> dict[str, float]:
         """Inches on the longitudinal stick."""

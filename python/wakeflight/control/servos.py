@@ -124,4 +124,5 @@ class Moving:
     @property
     def stick(self) -> np.ndarray:
         """Sticks (4,) [m] that stand for where the servos are."""
-        return self.back @ (self.at - self.offset)
+        found: np.ndarray = self.back @ (self.at - self.offset)
+        return found

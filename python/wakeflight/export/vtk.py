@@ -107,8 +107,8 @@ def _blades(run: xr.Dataset, row: int) -> tuple[np.ndarray, dict[str, np.ndarray
     radius = float(run.attrs["radius"])
     r = np.array([shape["root_cutout"], radius, radius, shape["root_cutout"]])
     behind = shape["chord"] * np.array([-0.25, -0.25, 0.75, 0.75])
-    angles = (run[name].values[row] for name in ("azimuth", "flap", "lead"))
-    corners = frames.blade_points(shape, *angles, r, behind)
+    azimuth, flap, lead = (run[name].values[row] for name in ("azimuth", "flap", "lead"))
+    corners = frames.blade_points(shape, azimuth, flap, lead, r, behind)
     blade = np.broadcast_to(run["blade"].values[:, None], corners.shape[:-1])
     return corners, {"blade": blade, "radius": np.broadcast_to(r, corners.shape[:-1])}
 

@@ -66,7 +66,8 @@ def export_wopwop(
 
 def _ground(earth: np.ndarray) -> np.ndarray:
     """North, east, down as north, west, up."""
-    return earth * np.array([1.0, -1.0, -1.0])
+    found: np.ndarray = earth * np.array([1.0, -1.0, -1.0])
+    return found
 
 
 def _text(text: str, length: int) -> bytes:

@@ -144,8 +144,8 @@ def handling_qualities(model: LinearModel) -> HandlingQualities:
     data |= {name: ((), value) for name, value in single.values.items()}
     whole = xr.Dataset(data, coords={"axis": list(AXES), "pulse": ("pulse", list(PULSES), {"units": "s"})})
     units = UNITS | {"quickness": "1/s", "attitude_change": "rad/in"}
-    for name in whole.data_vars:
-        whole[name].attrs["units"] = units.get(str(name), "1")
+    for variable in whole.data_vars:
+        whole[variable].attrs["units"] = units.get(str(variable), "1")
     drawn = xr.Dataset(
         {axis: ("frequency", response(w)) for axis, response in attitudes.items()},
         coords={"frequency": ("frequency", w, {"units": "rad/s"})},

@@ -86,4 +86,5 @@ def _phase(values: np.ndarray, w: np.ndarray) -> np.ndarray:
     """Phase without jumps, between -270 and 90 deg at the frequency of reference."""
     phase = np.unwrap(np.angle(values))
     here = float(np.interp(REFERENCE, w, phase))
-    return phase - 2 * np.pi * np.round((here + 0.5 * np.pi) / (2 * np.pi))
+    found: np.ndarray = phase - 2 * np.pi * np.round((here + 0.5 * np.pi) / (2 * np.pi))
+    return found

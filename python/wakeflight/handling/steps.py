@@ -56,7 +56,8 @@ def heave(model: LinearModel) -> Measured:
     def fit(x: np.ndarray) -> np.ndarray:
         gain, constant, delay = x
         late = np.maximum(t - delay, 0.0)
-        return gain * (1.0 - np.exp(-late / constant))
+        found: np.ndarray = gain * (1.0 - np.exp(-late / constant))
+        return found
 
     scale = max(float(np.abs(climb).max()), 1e-12)
     best = least_squares(

@@ -107,7 +107,7 @@ def _azimuths(asked: Any, start: Trim) -> int:
         n = start.inflow_map.shape[0]
         if asked not in (None, n):
             raise InputError.of("azimuths", asked, f"must be those of the wake's inflow, {n}")
-        return n
+        return int(n)
     if asked is None:
         n_blades = start.model.n_blades
         return n_blades * -(-36 // n_blades)

@@ -38,8 +38,8 @@ class Constant:
 
 def averaged(system: PeriodicSystem) -> Constant:
     """The mean of A, B, C, D over the revolution."""
-    parts = (each.mean(axis=0) for each in (system.a, system.b, system.c, system.d, system.b_rate))
-    return _felt(*parts, system.states, np.zeros(len(system.states), int))
+    a, b, c, d, rate = (each.mean(axis=0) for each in (system.a, system.b, system.c, system.d, system.b_rate))
+    return _felt(a, b, c, d, rate, system.states, np.zeros(len(system.states), int))
 
 
 def _felt(
@@ -89,7 +89,8 @@ def _acting(system: PeriodicSystem, harmonic: np.ndarray) -> np.ndarray:
     if not np.array_equal(np.diag(sign), system.renumbering):
         return np.ones(harmonic.size, bool)
     own = np.tile(np.where(sign < 0, n // 2, 0), harmonic.size // sign.size)
-    return (np.abs(harmonic) - own) % n == 0
+    found: np.ndarray = (np.abs(harmonic) - own) % n == 0
+    return found
 
 
 def _to_real(n: int) -> np.ndarray:

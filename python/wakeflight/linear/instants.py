@@ -125,7 +125,8 @@ def attitude_slopes(quaternion: np.ndarray) -> np.ndarray:
     product = np.array([[-x, -y, -z], [w, -z, y], [z, w, -x], [-y, x, w]])
     roll, _ = angles(quaternion)
     turns = np.array([[1.0, 0.0], [0.0, np.cos(roll)], [0.0, -np.sin(roll)]])
-    return 0.5 * product @ turns
+    found: np.ndarray = 0.5 * product @ turns
+    return found
 
 
 def angles(quaternion: np.ndarray) -> tuple[float, float]:

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
@@ -34,7 +35,7 @@ class Linearized(LinearModel):
         periodic: PeriodicSystem,
         harmonics: tuple[int, ...],
         input_si: tuple[float, ...],
-        attributes: dict,
+        attributes: dict[str, Any],
     ) -> Linearized:
         """The constant model of a periodic system."""
         return cls(
@@ -87,4 +88,5 @@ class Linearized(LinearModel):
         for i, ((name, _), n) in enumerate(zip(self.states, self.harmonic, strict=True)):
             z[:, place[base_name(name, n)]] += x[:, i] * swing[:, i]
         c, d = self.periodic.outputs_at(psi)
-        return np.einsum("tks,ts->tk", c, z) + np.einsum("tkm,tm->tk", d, u)
+        found: np.ndarray = np.einsum("tks,ts->tk", c, z) + np.einsum("tkm,tm->tk", d, u)
+        return found

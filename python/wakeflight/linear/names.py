@@ -45,12 +45,12 @@ class Places:
     @property
     def n_blades(self) -> int:
         """Blades."""
-        return self.modal.shape[0]
+        return int(self.modal.shape[0])
 
     @property
     def n_modes(self) -> int:
         """Modes per blade."""
-        return self.modal.shape[1]
+        return int(self.modal.shape[1])
 
     @cached_property
     def kept(self) -> np.ndarray:

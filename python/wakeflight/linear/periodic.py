@@ -91,7 +91,8 @@ class PeriodicSystem:
         distance = np.abs(found[:, None] + 1j * unit * turns - near[None, :])
         rows, columns = linear_sum_assignment(distance)
         unwrapped = found[rows] + 1j * unit * turns[rows, columns]
-        return unwrapped[np.lexsort((unwrapped.imag, -unwrapped.real))]
+        result: np.ndarray = unwrapped[np.lexsort((unwrapped.imag, -unwrapped.real))]
+        return result
 
     def to_dataset(self) -> xr.Dataset:
         """A, B, B_rate, C, D by azimuth with names and units."""
@@ -140,4 +141,5 @@ def complex_harmonics(values: np.ndarray, most: int) -> np.ndarray:
     inside = 2 * np.abs(order) < n
     picked = one_sided[np.where(inside, np.abs(order), 0)]
     conjugated = np.where((order < 0).reshape(-1, *(1,) * (values.ndim - 1)), picked.conj(), picked)
-    return conjugated * inside.reshape(-1, *(1,) * (values.ndim - 1))
+    found: np.ndarray = conjugated * inside.reshape(-1, *(1,) * (values.ndim - 1))
+    return found

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import _core
-from ..errors import NumericalFailure
+from ..errors import NumericalFailure, known
 from ..model import Model
 from ..trim import Trim
 from .names import MOTION, Places
@@ -52,7 +52,7 @@ def wake_gains(start: Trim) -> WakeGains:
     """Answers of the relaxation wake of a trim; where it does not come to rest there are none."""
     model = start.model
     where = (*MOTION, *CONTROLS, *DISK)
-    at_trim = _settled(start, start.wake.core, "the trim")
+    at_trim = _settled(start, known(start.wake).core, "the trim")
     base = np.array(at_trim.inflow)
     found, curved, scale = [], [], []
     for name in where:

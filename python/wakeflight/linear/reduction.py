@@ -97,7 +97,8 @@ def balanced(system: Matrices, order: int, judged: np.ndarray) -> Matrices:
 def _root(gramian: np.ndarray) -> np.ndarray:
     """R with R R^T = gramian, by eigenvalues: gramians are singular to rounding."""
     value, vector = np.linalg.eigh(0.5 * (gramian + gramian.T))
-    return vector * np.sqrt(np.clip(value, 0.0, None))
+    found: np.ndarray = vector * np.sqrt(np.clip(value, 0.0, None))
+    return found
 
 
 def good_to(full: Matrices, reduced: Matrices, pairs: list[tuple[int, int]]) -> float:

@@ -25,7 +25,8 @@ def harmonic_response(system: Matrices) -> Callable[[np.ndarray], np.ndarray]:
         # from the last row of the triangle upwards, all frequencies and inputs at once
         for i in range(a.shape[0] - 1, -1, -1):
             x[i] = (np.tile(right[i], w.size) + triangle[i, i + 1 :] @ x[i + 1 :]) / (s - triangle[i, i])
-        return (left @ x).reshape(c.shape[0], w.size, b.shape[1]).transpose(1, 0, 2) + d
+        found: np.ndarray = (left @ x).reshape(c.shape[0], w.size, b.shape[1]).transpose(1, 0, 2) + d
+        return found
 
     return response
 

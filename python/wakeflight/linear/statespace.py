@@ -59,11 +59,11 @@ class LinearModel:
     ) -> LinearModel:
         """From matrices of elsewhere: names, or pairs of name and unit. Without C the states are the outputs."""
         s, m = len(states), len(inputs)
-        named = [_named(each) for each in (states, inputs, states if outputs is None else outputs)]
-        k = len(named[2])
+        named, seen = _named(states), _named(states if outputs is None else outputs)
+        k = len(seen)
         shapes = {"A": (a, (s, s)), "B": (b, (s, m)), "C": (c, (k, s)), "D": (d, (k, m))}
         defaults = {"B": np.zeros((s, m)), "C": np.eye(s), "D": np.zeros((k, m))}
-        found = []
+        found: dict[str, np.ndarray] = {}
         for name, (given, shape) in shapes.items():
             value = defaults[name] if given is None else np.array(given, dtype=float)
             if value.shape != shape:
@@ -72,8 +72,9 @@ class LinearModel:
                 )
             if not np.isfinite(value).all():
                 raise InputError.of(name, "not finite", "must be finite")
-            found.append(value)
-        return cls(tuple(found), *named, input_si=(1.0,) * m)
+            found[name] = value
+        matrices = (found["A"], found["B"], found["C"], found["D"])
+        return cls(matrices, named, _named(inputs), seen, input_si=(1.0,) * m)
 
     def __post_init__(self) -> None:
         """Everything is of the mean where nothing is said."""

@@ -46,10 +46,10 @@ def sticks(stick: Mapping[str, Any], travel: Sequence[float], time: np.ndarray |
     least = np.min(margins, axis=0)
     left = float(np.min(least))
     closest = f"{left:.2f} in from a stop at least" if left >= 0.0 else f"{-left:.2f} in beyond a stop"
-    first, *more = texts or [None]
+    warnings: list[str | None] = [*texts] or [None]
     return [
-        Monitor("stick margin", closest, {"stick_margin": least}, first),
-        *(Monitor("stick margin", closest, warning=text) for text in more),
+        Monitor("stick margin", closest, {"stick_margin": least}, warnings[0]),
+        *(Monitor("stick margin", closest, warning=text) for text in warnings[1:]),
     ]
 
 

@@ -38,12 +38,14 @@ class Places:
 
     def over_disk(self, values: np.ndarray, reduce: Any = np.max) -> np.ndarray:
         """`values` reduced over the disk: a number of a map, (n_times,) of a history."""
-        return reduce(values, axis=(0, 1) if self.time is None else (1, 2))
+        found: np.ndarray = reduce(values, axis=(0, 1) if self.time is None else (1, 2))
+        return found
 
     def mean_over_disk(self, values: np.ndarray, weights: np.ndarray) -> np.ndarray:
         """Mean over azimuth or blades of `values` weighted along the stations: a number, or (n_times,)."""
         along = np.asarray(values @ weights)
-        return along.mean() if self.time is None else along.mean(axis=1)
+        found: np.ndarray = along.mean() if self.time is None else along.mean(axis=1)
+        return found
 
     def worst(self, values: np.ndarray, bound: Any) -> tuple[float, float, str]:
         """Of the disk whose largest of `values` is largest against `bound` (a number, or (n_times,)): value, bound, place."""

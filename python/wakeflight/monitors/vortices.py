@@ -52,4 +52,5 @@ def _distance(a: np.ndarray, b: np.ndarray, c: np.ndarray, d: np.ndarray) -> np.
     t = share(uv * s + vw, vv)
     s = share(uv * t - uw, uu)
     t = share(uv * s + vw, vv)
-    return np.linalg.norm(w + s[..., None] * u - t[..., None] * v, axis=-1)
+    found: np.ndarray = np.linalg.norm(w + s[..., None] * u - t[..., None] * v, axis=-1)
+    return found

@@ -29,7 +29,7 @@ def shapes(
     flap: np.ndarray,
     lead: np.ndarray,
     twist: np.ndarray,
-    frequencies: Sequence[float],
+    frequencies: Sequence[float] | np.ndarray,
     radius: float,
     names: Sequence[str] | None = None,
 ) -> Figure:

@@ -29,7 +29,7 @@ def maps(data: xr.Dataset) -> Figure:
     """Inflow, circulation, lift times Mach squared and angle of attack over the disk."""
     figure = style.blank(6.4)
     for axes, (name, label) in zip(figure.subplots(2, 2).flat, MAPS, strict=True):
-        field = np.degrees(data[name]) if name == "alpha" else data[name]
+        field = data[name] * (180.0 / np.pi) if name == "alpha" else data[name]
         # about the reversed flow the angle of attack takes every value: off the scale, or the map shows nothing else
         about_zero = style.signed(field.values)
         limits = style.levels(np.array(style.robust(field.values)), symmetric=about_zero)

@@ -107,8 +107,9 @@ def _blades(run: xr.Dataset, snapshot: int) -> np.ndarray:
     radius = float(run.attrs["radius"])
     shape = frames.geometry(run)
     row = int(np.argmin(np.abs(revolutions(run) - float(run["snapshot_revolution"][snapshot]))))
-    angles = (run[name].values[row] for name in ("azimuth", "flap", "lead"))
-    return frames.blade_points(shape, *angles, np.array([shape["root_cutout"], radius]), np.zeros(2)) / radius
+    azimuth, flap, lead = (run[name].values[row] for name in ("azimuth", "flap", "lead"))
+    ends = np.array([shape["root_cutout"], radius])
+    return frames.blade_points(shape, azimuth, flap, lead, ends, np.zeros(2)) / radius
 
 
 def _eventful(run: xr.Dataset) -> list[int]:

@@ -162,7 +162,9 @@ def trim_table(trim: xr.Dataset) -> list[Row]:
         label = f"{variable.attrs['long_name']} [{variable.attrs['units']}]"
         if variable.ndim == 0:
             value = float(variable)
-            degrees = f" ({np.rad2deg(value):.2f}°)" if variable.attrs["units"] == "rad" and "resid" not in name else ""
+            degrees = (
+                f" ({np.rad2deg(value):.2f}°)" if variable.attrs["units"] == "rad" and "resid" not in str(name) else ""
+            )
             rows.append(Row(label, f"{value:.6g}{degrees}"))
         elif variable.dims == ("xyz",):
             rows.append(Row(label, ", ".join(f"{value:.3g}" for value in variable.values)))

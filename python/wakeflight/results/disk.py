@@ -31,7 +31,8 @@ def element_widths(station: np.ndarray) -> np.ndarray:
 def area_weights(station: np.ndarray, width: np.ndarray) -> np.ndarray:
     """Shares of the area between root cutout and tip that elements stand for (n,), summing to one; both lengths in one unit."""
     area = station * width
-    return area / area.sum()
+    found: np.ndarray = area / area.sum()
+    return found
 
 
 def disk_mean(field: np.ndarray, weights: np.ndarray) -> float:

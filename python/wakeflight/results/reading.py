@@ -59,7 +59,7 @@ def _check_seal(path: Path) -> None:
         raise ResultsError(f"{_told(path)}: damaged or changed: its bytes are not those it was written with")
 
 
-def _summed(parts: Iterable[bytes]) -> bytes:
+def _summed(parts: Iterable[bytes | memoryview]) -> bytes:
     """Digest of bytes."""
     summed = hashlib.blake2b(digest_size=16)
     for part in parts:
@@ -132,7 +132,7 @@ def digest(data: xr.Dataset) -> str:
     return _summed(_content(data)).hex()
 
 
-def _content(data: xr.Dataset) -> Iterator[bytes]:
+def _content(data: xr.Dataset) -> Iterator[bytes | memoryview]:
     """Everything a dataset says, in an order of its own."""
     yield _attributes(data.attrs)
     for name in sorted(map(str, data.variables)):

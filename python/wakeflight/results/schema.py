@@ -33,7 +33,7 @@ class Attribute:
 
 def _table(dims: tuple[str, ...], *names: str | tuple[str, str], optional: bool = False) -> list[Variable]:
     """Variables that share their dimensions, by name; a pair is a name with the meaning it has in this dataset alone."""
-    pairs = [(each, MEANINGS[each]) if each in MEANINGS else each for each in names]
+    pairs = [(each, MEANINGS[each]) if isinstance(each, str) else each for each in names]
     return [Variable(name, dims, UNITS[name], meaning, optional) for name, meaning in pairs]
 
 

@@ -11,20 +11,22 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 from ..errors import NumericalFailure, WakeflightError
-from ..flight import RTOL, fly
+from ..flight import fly
 from ..inflow import trim_model
+from ..integrators import RTOL
 from ..progress import Progress, Silent
-from ..trim import CONTROL_TOLERANCE, trim
+from ..trim import trim
+from ..trim.wake import CONTROL_TOLERANCE
 from ..tunnel import tunnel
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from ..aircraft import Aircraft, Rotor
-    from ..condition import FlightCondition
+    from ..condition import CompleteCondition
     from ..inflow import InflowModel
     from ..maneuvers import Maneuver
     from ..tunnel.model import StandInflow
@@ -40,7 +42,7 @@ class Case:
 
     aircraft: Aircraft | Rotor
     inflow: InflowModel | StandInflow
-    condition: FlightCondition | None = None
+    condition: CompleteCondition | None = None
     maneuver: Maneuver | None = None
     stand: Mapping[str, Any] | None = None
     trim_inflow: InflowModel | None = None
@@ -49,6 +51,16 @@ class Case:
     rtol: float = RTOL
     n_harmonics: int = 8
     control_tolerance: float = CONTROL_TOLERANCE
+
+    @property
+    def helicopter(self) -> Aircraft:
+        """The aircraft of a trim or a flight."""
+        return cast("Aircraft", self.aircraft)
+
+    @property
+    def flown_inflow(self) -> InflowModel:
+        """The inflow model of a trim or a flight."""
+        return cast("InflowModel", self.inflow)
 
 
 @dataclass(frozen=True)
@@ -69,7 +81,8 @@ class Done:
     @property
     def data(self) -> xr.Dataset:
         """Dataset of a flight or a stand."""
-        return self.answer.data
+        found: xr.Dataset = self.answer.data
+        return found
 
 
 def attempt(action: Callable[[], Any], keep: type[Exception] = NumericalFailure) -> Done:
@@ -102,14 +115,15 @@ class Trims:
 
     def start(self, case: Case, progress: Progress | Silent, keep: type[Exception] = NumericalFailure) -> Done:
         """Trim of a case, and what it cost when it was made; one that failed is not remembered."""
-        inflow = case.trim_inflow or (trim_model(case.inflow) if case.maneuver is not None else case.inflow)
+        flown = case.flown_inflow
+        inflow = case.trim_inflow or (trim_model(flown) if case.maneuver is not None else flown)
         key = (case.aircraft, case.condition, inflow, case.n_harmonics, case.control_tolerance)
         for known, done in self._known:
             if known == key:
                 return done
         done = attempt(
             lambda: trim(
-                case.aircraft,
+                case.helicopter,
                 case.condition,
                 inflow=inflow,
                 progress=progress,
@@ -135,15 +149,16 @@ def run(
         stand = {"n_harmonics": case.n_harmonics, **case.stand}
         return attempt(lambda: tunnel(case.aircraft, inflow=case.inflow, progress=progress, **stand), keep)
     start = trims.start(case, progress, keep)
-    if case.maneuver is None:
+    maneuver = case.maneuver
+    if maneuver is None:
         return start
     if start.failure:
         return Done(None, 0.0, 0.0, start.failure, start.foreseen, start)
     flown = attempt(
         lambda: fly(
             start.answer,
-            case.maneuver,
-            inflow=case.inflow,
+            maneuver,
+            inflow=case.flown_inflow,
             revolutions=case.revolutions,
             integrator=case.integrator,
             progress=progress,

@@ -66,10 +66,10 @@ def trim(
     asked = target(condition, power, collective, free)
     progress.phase("trim", None)
 
-    def told(found: Solution) -> Trim:
+    def told(model: Model, found: Solution) -> Trim:
         """The trim with what was found of the path in its condition, what was asked, and the seconds it took."""
         seconds = time.perf_counter() - started
-        own = {"model": found.model.flown(found.problem, found.x), "seconds": seconds}
+        own = {"model": model.flown(found.problem, found.x), "seconds": seconds}
         return physical(Trim(**vars(found) | own, asked=asked_for, control_tolerance=control_tolerance))
 
     # dynamic inflow first: the result itself, or the start of the free wake
@@ -80,7 +80,7 @@ def trim(
     condition = simple.condition
     progress.advance(1, "dynamic inflow")
     if chosen.is_dynamic:
-        return told(Solution(simple, problem, x, *dynamic_map(simple, problem, x)))
+        return told(simple, Solution(simple, problem, x, *dynamic_map(simple, problem, x)))
 
     model = Model.build(aircraft, condition, trim_model(chosen), asked, n_harmonics)
     inflow_map, _ = dynamic_map(simple, problem, x, model.steps_per_revolution)
@@ -91,7 +91,7 @@ def trim(
     if chosen.is_marching:
         model = Model.build(aircraft, condition, chosen, asked, n_harmonics)
         found = on_marching(model, found, progress, control_tolerance)
-    return told(found)
+    return told(model, found)
 
 
 def physical(found: Trim) -> Trim:

@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from .. import _core
-from ..errors import NumericalFailure
+from ..errors import NumericalFailure, known
 from ..exchange import Exchange
 from ..model import Model
 from ..progress import Progress, Silent
@@ -33,7 +33,7 @@ PERIODIC = 3e-4
 """Change of the inflow of a marching wake from turn to turn, over the tip speed, at which it is periodic."""
 
 
-class AircraftOnWake(TrimOnWake):
+class AircraftOnWake(TrimOnWake[Model, WakeInTrim]):
     """Trims of an aircraft on a free wake; its pitch controls must rest.
 
     start_only: the start of a marching wake, which comes to rest by itself; passes until no more is gained are enough.
@@ -52,7 +52,8 @@ class AircraftOnWake(TrimOnWake):
     ):
         super().__init__(model, progress, tolerance)
         self.start_only = start_only
-        self.mixing, self.moves = 1.0, []
+        self.mixing = 1.0
+        self.moves: list[np.ndarray] = []
         self.best, self.since = np.inf, 0
 
     def none_found(self, problem: _core.TrimProblem, x: np.ndarray, inflow_map: np.ndarray | None) -> str:
@@ -62,7 +63,8 @@ class AircraftOnWake(TrimOnWake):
 
     def moved(self, problem: _core.TrimProblem, before: np.ndarray, after: np.ndarray) -> np.ndarray:
         """Changes of the pitch controls [rad]."""
-        return self.model.pitch_controls(after[:4]) - self.model.pitch_controls(before[:4])
+        found: np.ndarray = self.model.pitch_controls(after[:4]) - self.model.pitch_controls(before[:4])
+        return found
 
     def rests(self, wake: WakeInTrim, change: float) -> bool:
         """Whether trim and wake agree, the wake by itself or in the mean."""
@@ -81,7 +83,8 @@ class AircraftOnWake(TrimOnWake):
             last = self.moves[-2]
             if moved @ last < -0.5 * (last @ last):
                 self.mixing = max(0.5 * self.mixing, 0.25)
-        return held + self.mixing * (wake.inflow_map - held)
+        found: np.ndarray = held + self.mixing * (wake.inflow_map - held)
+        return found
 
     def hopeless(self, wake: WakeInTrim, history: list[dict[str, float]]) -> bool:
         """Whether several passes brought nothing, or the wake has had its sweeps."""
@@ -95,7 +98,7 @@ class AircraftOnWake(TrimOnWake):
         """Enough for a start; else a failure that says what does not rest."""
         if self.start_only:
             return found
-        wake, change, allowed = found.wake, found.history[-1]["control_change"], self.mixing * self.tolerance
+        wake, change, allowed = known(found.wake), found.history[-1]["control_change"], self.mixing * self.tolerance
         unrest = wake.unrest()
         if change >= allowed:
             unrest.append(f"pitch controls move by {change:.1e} rad between trims (allowed {allowed:g})")
@@ -136,7 +139,8 @@ class Means:
 
     def __init__(self, model: Model, start: Solution, tolerance: float):
         self.model, self.start, self.tolerance = model, start, tolerance
-        self.march = Exchange.marching(model, start.wake)
+        self.wake = known(start.wake)
+        self.march = Exchange.marching(model, self.wake)
         self.turns: list[tuple[np.ndarray, np.ndarray]] = []
         self.recent: list[tuple[np.ndarray, np.ndarray]] = []
         self.inflow_map: np.ndarray | None = None
@@ -183,10 +187,10 @@ class Means:
         """The trim, with a note where it is one on a mean; a failure with figures where nothing rests."""
         start = self.start
         if rests:
-            start.wake.counters["wake_segment_evaluations"] += self.march.segment_evaluations
+            self.wake.counters["wake_segment_evaluations"] += self.march.segment_evaluations
             notes = () if self.direct or self.wander < PERIODIC else (varying(self.wander, len(self.recent)),)
-            maps = (self.inflow_map, self.circulation)
-            return Solution(self.model, self.problem, self.x, *maps, start.wake, start.history, notes)
+            maps = (known(self.inflow_map), self.circulation)
+            return Solution(self.model, self.problem, self.x, *maps, self.wake, start.history, notes)
         limits = limiting(self.model, self.problem, self.x, self.inflow_map)
         raise NumericalFailure(
             f"trim on the time-marching wake did not settle in {self.longest} revolutions: pitch controls move by "

@@ -81,7 +81,8 @@ def inflow_of_states(model: CompiledRotor, problem: _core.TrimProblem, x: np.nda
     mean, sine, cosine = x[i : i + 3]
     psi = 2 * np.pi * np.arange(n_azimuths) / n_azimuths
     r = model.stations / model.rotor["radius"]
-    return mean + np.outer(cosine * np.cos(psi) + sine * np.sin(psi), r)
+    found: np.ndarray = mean + np.outer(cosine * np.cos(psi) + sine * np.sin(psi), r)
+    return found
 
 
 def without_inflow(model: CompiledRotor, problem: _core.TrimProblem, x: np.ndarray) -> np.ndarray:

@@ -47,7 +47,7 @@ def monitors(start: Solved) -> tuple[Monitor, ...]:
         *airframe.torque(-model.hand * mean["hub_moment"][2], start.aircraft.limits.torque),
         *airframe.rotor_speed(model.omega, start.aircraft.limits.rotor_speed),
         airframe.attitude(start.roll, start.pitch, condition.bank is not None or condition.turn_rate != 0.0),
-        airframe.sideslip(y[:2], condition.sideslip is not None),
+        airframe.sideslip(y[:2].tolist(), condition.sideslip is not None),
     ]
     if start.wake is not None:
         found.append(rotor.vortex_distance(closest_vortex(model, start.wake)))
@@ -92,6 +92,7 @@ def closest_vortex(model: CompiledRotor, wake: WakeInTrim) -> float:
     """Smallest distance of a tip vortex of a relaxed wake from a blade, in core radii."""
     radius, blade = model.rotor["radius"], model.rotor_tables["blade"]
     step = 2 * np.pi / model.steps_per_revolution
+    settings = model.inflow.free_wake
     return vortices.closest(
         wake.relaxation.lattice()[:, -1],
         wake.relaxation.core_radius()[:, -1],
@@ -99,7 +100,7 @@ def closest_vortex(model: CompiledRotor, wake: WakeInTrim) -> float:
         model.n_blades,
         model.rotor["hinge_offset"],
         blade["root_cutout"],
-        model.inflow.release_radius * radius,
+        settings.release_radius * radius,
         radius,
-        round(model.inflow.near_wake_angle / step),
+        round(settings.near_wake_angle / step),
     )

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
-from typing import ClassVar, Protocol
+from typing import ClassVar, Generic, Protocol, TypeVar
 
 import numpy as np
 
@@ -49,22 +49,45 @@ class Solution:
 class PeriodicWake(Protocol):
     """What answers a periodic motion with an inflow: a relaxation wake, or rings of the disk."""
 
-    inflow_map: np.ndarray
-    circulation: np.ndarray
-    converged: bool
-    last: dict[str, float]
+    @property
+    def in_trim(self) -> WakeInTrim | None:
+        """The free wake of the trim, None of rings."""
+
+    @property
+    def inflow_map(self) -> np.ndarray:
+        """Inflow (n_azimuths, n_stations)."""
+
+    @property
+    def circulation(self) -> np.ndarray:
+        """Bound circulation (n_azimuths, n_stations) [m2/s]."""
+
+    @property
+    def converged(self) -> bool:
+        """Whether it rests."""
+
+    @property
+    def last(self) -> dict[str, float]:
+        """Changes of the last iteration."""
 
     def converge(self, problem: _core.TrimProblem, x: np.ndarray) -> np.ndarray:
         """Follow the motion of `x`."""
 
 
-class Turns(Protocol):
+Rotor = TypeVar("Rotor", bound=CompiledRotor)
+Wake = TypeVar("Wake", bound=PeriodicWake)
+Found = TypeVar("Found", bound=Solution, covariant=True)
+
+
+class Turns(Protocol[Found]):
     """A wake that marches, and what is made of its revolutions."""
 
-    longest: int
-    """Revolutions at most."""
-    told: str
-    """Opens the line of progress."""
+    @property
+    def longest(self) -> int:
+        """Revolutions at most."""
+
+    @property
+    def told(self) -> str:
+        """Opens the line of progress."""
 
     def turn(self, revolution: int, problem: _core.TrimProblem, x: np.ndarray) -> np.ndarray | None:
         """March one revolution at the motion of `x`: the inflow to be trimmed on, None to go on without."""
@@ -75,21 +98,21 @@ class Turns(Protocol):
     def trimmed(self, problem: _core.TrimProblem, x: np.ndarray, change: float) -> bool:
         """The trim on that inflow, with the change [rad] it brought: whether both rest."""
 
-    def found(self, rests: bool) -> Solution:
+    def found(self, rests: bool) -> Found:
         """What was found, or why there is nothing."""
 
 
-class TrimOnWake(ABC):
+class TrimOnWake(ABC, Generic[Rotor, Wake]):
     """Trims of one compiled rotor on the inflow that its wake gives."""
 
-    passes: ClassVar[int]
+    passes: int
     """Passes of trim and wake at most."""
     where: ClassVar[str]
     """Opens what is said of a wake that fails."""
     moving: ClassVar[str]
     """What must rest, in a word."""
 
-    def __init__(self, model: CompiledRotor, progress: Progress | Silent, tolerance: float):
+    def __init__(self, model: Rotor, progress: Progress | Silent, tolerance: float):
         self.model, self.progress = model, progress
         self.tolerance = tolerance
         """Change [rad] between trims at which the rotor rests."""
@@ -102,16 +125,16 @@ class TrimOnWake(ABC):
     def moved(self, problem: _core.TrimProblem, before: np.ndarray, after: np.ndarray) -> np.ndarray:
         """Changes of what must rest [rad]."""
 
-    def rests(self, wake: PeriodicWake, change: float) -> bool:
+    def rests(self, wake: Wake, change: float) -> bool:
         """Whether trim and wake agree."""
         return change < self.tolerance and wake.converged
 
-    def taken(self, held: np.ndarray, wake: PeriodicWake, moved: np.ndarray) -> np.ndarray:
+    def taken(self, held: np.ndarray, wake: Wake, moved: np.ndarray) -> np.ndarray:
         """The inflow to be trimmed on next."""
         return wake.inflow_map
 
     @abstractmethod
-    def hopeless(self, wake: PeriodicWake, history: list[dict[str, float]]) -> bool:
+    def hopeless(self, wake: Wake, history: list[dict[str, float]]) -> bool:
         """Whether the last pass of `history` is the last worth its cost."""
 
     @abstractmethod
@@ -142,7 +165,7 @@ class TrimOnWake(ABC):
             return problem, attempt.x
         raise NumericalFailure(self.none_found(problem, attempt.x, inflow_map))
 
-    def on_periodic(self, wake: PeriodicWake, x: np.ndarray, inflow_map: np.ndarray) -> Solution:
+    def on_periodic(self, wake: Wake, x: np.ndarray, inflow_map: np.ndarray) -> Solution:
         """Trim on the inflow, wake at the trimmed motion, in turn until both rest; from `x` and the inflow it belongs to."""
         history: list[dict[str, float]] = []
         before: np.ndarray | None = None
@@ -154,7 +177,7 @@ class TrimOnWake(ABC):
             # the first trim is on the inflow it was started with: its rest says nothing
             if outer > 0 and self.rests(wake, change):
                 history[-1]["control_change"] = change
-                return Solution(self.model, problem, x, inflow_map, wake.circulation, wake, history)
+                return Solution(self.model, problem, x, inflow_map, wake.circulation, wake.in_trim, history)
             try:
                 self.follow(wake, problem, x, change)
             except ArithmeticError as reason:
@@ -164,13 +187,14 @@ class TrimOnWake(ABC):
             self.progress.advance(1, f"inflow change {wake.last['inflow_change']:.1e}, {self.moving} {change:.1e} rad")
             if self.hopeless(wake, history):
                 break
-        return self.ended(Solution(self.model, problem, x, inflow_map, wake.circulation, wake, history, settled=False))
+        maps = (inflow_map, wake.circulation)
+        return self.ended(Solution(self.model, problem, x, *maps, wake.in_trim, history, settled=False))
 
-    def follow(self, wake: PeriodicWake, problem: _core.TrimProblem, x: np.ndarray, change: float) -> None:
+    def follow(self, wake: Wake, problem: _core.TrimProblem, x: np.ndarray, change: float) -> None:
         """The wake goes to the trimmed motion, which is another by `change` [rad]."""
         wake.converge(problem, x)
 
-    def on_turns(self, turns: Turns, start: Solution) -> Solution:
+    def on_turns(self, turns: Turns[Found], start: Solution) -> Found:
         """March a revolution at the trimmed motion, trim on its inflow, until both rest; from a trim on a periodic wake."""
         problem, x, held = start.problem, start.x, start.inflow_map
         for revolution in range(1, turns.longest + 1):

@@ -15,8 +15,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from .. import _core
-from ..condition import FlightCondition, smooth_step
-from ..errors import NumericalFailure
+from ..condition import CompleteCondition, smooth_step
+from ..errors import NumericalFailure, known
 from ..model import PITCH, ROLL, YAW, Model
 from ..units import STANDARD_GRAVITY, convert
 from .equations import INCH, scales, trim_problem, unmet
@@ -80,11 +80,11 @@ def to_target(model: Model, work: Work) -> tuple[_core.TrimProblem, np.ndarray]:
 
     There the power is another; what it is more turns into climb, what it is less into descent: the start of the trim asked for.
     """
-    target = model.target
+    target = known(model.target)
     given = replace(model, target=None)
-    known, x = solve_condition(given, work)
+    start_problem, x = solve_condition(given, work)
     problem = trim_problem(model, None)
-    first = given.core.trim_layout(known).path
+    first = given.core.trim_layout(start_problem).path
     x = np.insert(x, first, model.question.path[("speed", "flight_path").index(target.free)])
     has = value_of(model, problem, x)
     start = x.copy()
@@ -98,7 +98,8 @@ def to_target(model: Model, work: Work) -> tuple[_core.TrimProblem, np.ndarray]:
     path = Path(
         lambda s: replace(model, target=target.at(has + s * (target.value - has))),
         lambda now, x: (
-            f"{target.name} ends at {target.shown(now.target.value)} of {target.shown(target.value)} {told_path(now, problem, x)}"
+            f"{target.name} ends at {target.shown(known(now.target).value)} of {target.shown(target.value)} "
+            f"{told_path(now, problem, x)}"
         ),
         x,
     )
@@ -110,7 +111,7 @@ def to_target(model: Model, work: Work) -> tuple[_core.TrimProblem, np.ndarray]:
 
 def value_of(model: Model, problem: _core.TrimProblem, x: np.ndarray) -> float:
     """Power [W] or collective [rad] at the unknowns `x`."""
-    if model.target.name == "collective":
+    if known(model.target).name == "collective":
         return float(model.pitch_controls(x[:4])[2])
     return over_the_disk(model, problem, x, None)["power"]
 
@@ -152,7 +153,7 @@ def paths(model: Model, work: Work) -> Iterator[Path]:
         )
 
 
-def slower_turn(condition: FlightCondition, share: float) -> dict[str, float]:
+def slower_turn(condition: CompleteCondition, share: float) -> dict[str, float]:
     """The load factor of a turn at a share of its lateral acceleration, where it is given."""
     if condition.load_factor is None:
         return {}
@@ -220,7 +221,7 @@ def at(model: Model, path: Path, share: float) -> tuple[Model, _core.TrimProblem
     return here, trim_problem(here, None)
 
 
-def conditioned(model: Model, condition: FlightCondition) -> Model:
+def conditioned(model: Model, condition: CompleteCondition) -> Model:
     """The model in another condition, compiled anew where its mass is another."""
     if condition.gross_mass == model.condition.gross_mass:
         return replace(model, condition=condition)
@@ -243,16 +244,16 @@ def why_none(model: Model, problem: _core.TrimProblem, attempt: Attempt, ended: 
         return f"no trim found: {limits}, where the iteration stopped {stopped}"
     told = [(limiting(each.model, each.problem, each.x), each.told) for each in ended]
     # the first path that ended at a limit, else the first
-    limits, where = next((each for each in told if each[0]), told[0])
-    if not limits:
+    said, where = next((each for each in told if each[0]), told[0])
+    if not said:
         return f"no trim found: {where}, without a stick, stall or inflow limit in the last trim {stopped}"
-    return f"no trim found: {'; '.join(limits)}, where {where} {stopped}"
+    return f"no trim found: {'; '.join(said)}, where {where} {stopped}"
 
 
 def blade_loading(model: Model) -> float:
     """C_T/sigma that carries the weight in straight flight."""
     force = model.density * np.pi * model.rotor["radius"] ** 2 * model.tip_speed**2
-    return model.condition.gross_mass * STANDARD_GRAVITY / force / model.aircraft.solidity
+    return float(model.condition.gross_mass * STANDARD_GRAVITY / force / model.aircraft.solidity)
 
 
 def told_turn(now: Model, x: np.ndarray) -> str:

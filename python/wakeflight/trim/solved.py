@@ -10,10 +10,10 @@ import numpy as np
 
 from .. import _core
 from ..aircraft import Aircraft
-from ..condition import FlightCondition
+from ..condition import CompleteCondition
 from ..inflow import InflowModel
-from ..maneuvers import STICKS
 from ..model import Model
+from ..sticks import STICKS
 from ..units import STANDARD_GRAVITY
 from .equations import INCH, residual_norms
 from .on_wake import Solution
@@ -30,7 +30,7 @@ class Solved(Solution):
     model: Model
     seconds: float = 0.0
     """Wall clock of the trim."""
-    asked: FlightCondition | None = None
+    asked: CompleteCondition | None = None
     """The condition as it was asked for, before what was left free of its path was found."""
     control_tolerance: float = CONTROL_TOLERANCE
     """Change of a pitch control [rad] at which it rested."""
@@ -50,7 +50,7 @@ class Solved(Solution):
         return self.model.aircraft
 
     @property
-    def condition(self) -> FlightCondition:
+    def condition(self) -> CompleteCondition:
         """The condition."""
         return self.model.condition
 

@@ -7,9 +7,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..maneuvers import STICKS
 from ..model import flight_regime
 from ..regime import REGIMES
+from ..sticks import STICKS
 from ..views import text_table
 from .solved import Solved
 
@@ -95,4 +95,5 @@ def _wake_length(start: Solved) -> str:
     if start.inflow.is_dynamic:
         return ""
     regime = flight_regime(start.aircraft, start.condition)
-    return f", {start.inflow.turns:g} turns free, {start.inflow.far_wake_turns} repeated ({REGIMES[regime]})"
+    wake = start.inflow.free_wake
+    return f", {wake.turns:g} turns free, {wake.far_wake_turns} repeated ({REGIMES[regime]})"

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from .. import _core
-from ..errors import InputError
+from ..errors import InputError, known
 from ..model import CompiledRotor
 
 CONTROL_TOLERANCE = 1e-3
@@ -55,6 +55,11 @@ class WakeInTrim:
         self.__dict__.update(state | {"core": _core.SteadyWake.from_bytes(state["core"])})
 
     @property
+    def in_trim(self) -> WakeInTrim:
+        """Itself: a free wake."""
+        return self
+
+    @property
     def circulation(self) -> np.ndarray:
         """Bound circulation (n, n_stations) [m2/s]."""
         return self.core.circulation
@@ -65,9 +70,9 @@ class WakeInTrim:
         return self.core.inflow
 
     @property
-    def relaxation(self) -> _core.RelaxationWake | None:
+    def relaxation(self) -> _core.RelaxationWake:
         """A copy of the wake."""
-        return self.core.relaxation
+        return known(self.core.relaxation)
 
     @property
     def converged(self) -> bool:
@@ -90,7 +95,7 @@ class WakeInTrim:
         motion = core.trim_motion(problem, x, self.n)
         y, _ = core.trim_state(problem, x, 0.0)
         try:
-            self.core.converge(core, y, x[: self.model.n_controls], motion, self.model.inflow.max_loops)
+            self.core.converge(core, y, x[: self.model.n_controls], motion, self.model.inflow.relaxed.max_loops)
         except ValueError as reason:
             raise InputError(f"wake: {reason}") from reason
         self.counters = dict(zip(self.counters, self.core.counters, strict=True))
@@ -117,7 +122,7 @@ class WakeInTrim:
     def mean_unrest(self) -> float:
         """How far the mean of a wake that circles is from being one to trim on, below one where it is."""
         moved, wander = self.core.circling
-        return max(moved / self.model.inflow.inflow_tolerance, wander / INFLOW_KNOWN)
+        return max(moved / self.model.inflow.relaxed.inflow_tolerance, wander / INFLOW_KNOWN)
 
     def unrest(self) -> list[str]:
         """What has not settled, with figures."""
@@ -130,7 +135,7 @@ class WakeInTrim:
         texts = [text.format(last[name], allowed[name]) for name, text in said.items() if excess[name] >= 1.0]
         moved, wander = self.core.circling
         if np.isfinite(wander):
-            tolerance = self.model.inflow.inflow_tolerance
+            tolerance = self.model.inflow.relaxed.inflow_tolerance
             texts.append(
                 f"the wake circles: inflow within {wander:.1e} of its mean (allowed {INFLOW_KNOWN:.1e}), which "
                 f"moves by {moved:.1e} between passes (allowed {tolerance:.1e})"

@@ -196,14 +196,16 @@ def _prepared(aircraft: Any, inflow: Any, given: dict[str, Any]) -> tuple[Rotor,
     if blade_model not in BLADE_MODELS:
         raise InputError.choice("blade_model", blade_model, BLADE_MODELS)
     if blade_model != BLADE_MODELS[0] and model.remembers:
-        raise InputError.of("unsteady", model.unsteady, f"must be quasi-steady with blade_model = {blade_model}")
+        raise InputError.of(
+            "unsteady", model.sections["unsteady"], f"must be quasi-steady with blade_model = {blade_model}"
+        )
     if not isinstance(given["prandtl_glauert"], bool):
         raise InputError.of("prandtl_glauert", given["prandtl_glauert"], "must be True or False")
     if model.name == "annular":
         check_axial(condition, rotor.omega * rotor.radius)
     if model.name in ("relaxation", "time-marching"):
-        model.core_options(rotor)
-        if blade_model != BLADE_MODELS[0] and model.near_wake_angle == 0.0:
+        model.free_wake.core_options(rotor)
+        if blade_model != BLADE_MODELS[0] and model.free_wake.near_wake_angle == 0.0:
             raise InputError.of("near_wake_angle", "0 deg", f"a {blade_model} blade needs a near wake")
     elif blade_model != BLADE_MODELS[0]:
         raise InputError.of("blade_model", blade_model, "needs a free wake: inflow relaxation or time-marching")

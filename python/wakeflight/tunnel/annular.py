@@ -10,7 +10,6 @@ from ..errors import InputError, NumericalFailure
 from ..progress import Progress, Silent
 from ..trim import on_wake
 from ..trim.equations import inflow_of_states, without_inflow
-from ..trim.on_wake import PeriodicWake
 from .condition import StandCondition
 from .model import StandModel
 from .solve import Solution, StandOnWake
@@ -38,6 +37,11 @@ class Rings:
         self.last = {"inflow_change": np.inf}
 
     @property
+    def in_trim(self) -> None:
+        """No free wake."""
+        return None
+
+    @property
     def converged(self) -> bool:
         """Whether the last pass found them at rest."""
         return self.last["inflow_change"] < REST
@@ -50,10 +54,10 @@ class Rings:
         return self.inflow_map
 
 
-class OnRings(StandOnWake):
+class OnRings(StandOnWake["Rings"]):
     """Trims of a rotor on its stand in the inflow of its rings."""
 
-    def hopeless(self, wake: PeriodicWake, history: list[dict[str, float]]) -> bool:
+    def hopeless(self, wake: Rings, history: list[dict[str, float]]) -> bool:
         """Not before the passes are at their end."""
         return False
 
@@ -94,7 +98,8 @@ def inflow_of_rings(model: StandModel, problem: _core.TrimProblem, x: np.ndarray
         lift = [core.section_circulation(hub, x[:3], (p, a, b), lam) for p, a, b in passages]
         through = np.abs(lam + climb)
         momentum = 4 * np.pi * tip_loss(model, r, through) * lam * through * tip_speed**2
-        return momentum - model.n_blades * model.omega * np.mean(lift, axis=0)
+        found: np.ndarray = momentum - model.n_blades * model.omega * np.mean(lift, axis=0)
+        return found
 
     lifts = excess(np.zeros_like(r)) <= 0.0
     windmill = excess(np.full_like(r, -0.5 * climb)) <= 0.0
@@ -113,7 +118,8 @@ def inflow_of_rings(model: StandModel, problem: _core.TrimProblem, x: np.ndarray
 
 def tip_loss(model: StandModel, r: np.ndarray, through: np.ndarray) -> np.ndarray:
     """Prandtl's share F of the momentum that a ring of finitely many blades passes on; 1 without tip loss."""
-    if model.inflow.tip_loss == "none":
+    if model.inflow.annular.tip_loss == "none":
         return np.ones_like(r)
     with np.errstate(divide="ignore"):
-        return 2 / np.pi * np.arccos(np.exp(-0.5 * model.n_blades * (1.0 - r) / through))
+        found: np.ndarray = 2 / np.pi * np.arccos(np.exp(-0.5 * model.n_blades * (1.0 - r) / through))
+        return found

@@ -38,7 +38,7 @@ class StandCondition:
     rates: tuple[float, float, float]
     density: float
     speed_of_sound: float
-    controls: tuple[tuple[str, float], tuple[str, float], tuple[str, float]]
+    controls: tuple[tuple[str, float], ...]
     higher: tuple[PitchHarmonic, ...]
     as_given: dict[str, Any]
     assumed: tuple[str, ...] = ()
@@ -168,7 +168,9 @@ def filled(
     return whole, tuple(words)
 
 
-def control_equations(rotor: Rotor, density: float, omega: float, asked: dict[str, Any]) -> tuple:
+def control_equations(
+    rotor: Rotor, density: float, omega: float, asked: dict[str, Any]
+) -> tuple[tuple[str, float], ...]:
     """The three equations (name, SI value) that the pitch controls are found from.
 
     asked: collective, collective_at, lateral_cyclic, longitudinal_cyclic, thrust, ct, torque, power, flapping, hub_roll,
@@ -232,11 +234,11 @@ def _reference_twist(rotor: Rotor, at: Any) -> float:
     return rotor.twist(value * rotor.radius)
 
 
-def _flapping(rotor: Rotor, flapping: Any) -> tuple:
+def _flapping(rotor: Rotor, flapping: Any) -> tuple[tuple[str, float], ...]:
     if rotor.discretisation.n_modes == 0:
         raise InputError.of("flapping", flapping, "the blades of this rotor do not flap: clamped and rigid")
     if flapping == "zero":
-        values = (0.0, 0.0)
+        values: tuple[float, ...] = (0.0, 0.0)
     elif isinstance(flapping, Sequence) and not isinstance(flapping, str) and len(flapping) == 2:
         values = tuple(within("flapping", each, "rad", -0.5, 0.5, "deg") for each in flapping)
     else:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..errors import known
 from ..modes import mode_labels
 from ..monitors import Monitor, variables
 from ..results import assemble_tunnel
@@ -54,7 +55,7 @@ def _wake_arrays(stand: Solved) -> dict[str, np.ndarray]:
     else:
         rows = [b * n // stand.model.n_blades for b in range(stand.model.n_blades)]
         wake = path[rows]
-        strength = np.full(path.shape[1], np.mean(s.wake.relaxation.released_circulation()[:, -1]))
+        strength = np.full(path.shape[1], np.mean(known(s.wake).relaxation.released_circulation()[:, -1]))
     return {
         "age": 2 * np.pi / n * np.arange(path.shape[1]),
         "wake": wake,
@@ -68,7 +69,18 @@ def _wake_arrays(stand: Solved) -> dict[str, np.ndarray]:
 
 def _scalars(stand: Solved) -> dict[str, Any]:
     m, c = stand.model, stand.model.condition
-    names = ("ct", "cq", "cp", "figure_of_merit", "thrust", "torque", "power", "beta_0", "beta_1c", "beta_1s")
+    names: tuple[str, ...] = (
+        "ct",
+        "cq",
+        "cp",
+        "figure_of_merit",
+        "thrust",
+        "torque",
+        "power",
+        "beta_0",
+        "beta_1c",
+        "beta_1s",
+    )
     names += ("theta_0", "theta_1c", "theta_1s", "hub_force", "hub_moment", "aero_force", "aero_moment")
     lam = stand.inflow_harmonics()
     ct_std, cq_std = scatter(stand)
@@ -149,10 +161,11 @@ def _motion(stand: Solved) -> dict[str, Any]:
 def attributes(stand: Solved, said: dict[str, str]) -> dict[str, Any]:
     """Attributes of the Dataset: rotor, condition, inflow, what was counted, and what is `said` of it."""
     m, s, c = stand.model, stand.solution, stand.model.condition
-    wake = s.march or s.wake
     evaluations = 0
-    if wake is not None:
-        evaluations = s.march.segment_evaluations if s.march else s.wake.counters["wake_segment_evaluations"]
+    if s.march is not None:
+        evaluations = s.march.segment_evaluations
+    elif s.wake is not None:
+        evaluations = s.wake.counters["wake_segment_evaluations"]
     return {
         "aircraft": m.aircraft.name,
         "inflow_model": m.inflow.name,
@@ -190,4 +203,5 @@ def _released(path: np.ndarray) -> np.ndarray:
     """Where each marker of a path (n, n_ages, 3) was released: the blade at the azimuth of its age."""
     n, ages = path.shape[:2]
     rows = (np.arange(n)[:, None] - np.arange(ages)[None, :]) % n
-    return path[rows, 0]
+    found: np.ndarray = path[rows, 0]
+    return found

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, ClassVar
 
 import numpy as np
@@ -12,7 +12,7 @@ import numpy as np
 from .. import _core
 from ..aircraft import Rotor
 from ..inflow import STAND_MODELS, AnnularInflow, InflowModel, inflow_model
-from ..model import CompiledRotor, Question, resolution, setting
+from ..model import CompiledRotor, Question, resolution, setting, turning_core
 from ..rotor_speed import Corners
 from .condition import StandCondition
 
@@ -22,7 +22,8 @@ StandInflow = InflowModel | AnnularInflow
 
 def stand_inflow(inflow: str | StandInflow) -> StandInflow:
     """Model from its name, or the configured model itself."""
-    return inflow_model(inflow, STAND_MODELS)
+    found: StandInflow = inflow_model(inflow, STAND_MODELS)
+    return found
 
 
 LIFT: dict[str, Any] = {
@@ -71,6 +72,10 @@ class StandModel(CompiledRotor):
         core = _core.System.stand(json.dumps(rotor.data), chosen, motion, list(condition.higher))
         return cls(rotor, condition, inflow, core, n_harmonics, blade_model)
 
+    def at_speed(self, corners: Corners) -> StandModel:
+        """This model with a rotor speed in time."""
+        return self if not corners else replace(self, core=turning_core(self, corners), rotor_speed=corners)
+
     @property
     def question(self) -> Question:
         """What the pitch controls are found from."""
@@ -94,4 +99,4 @@ class StandModel(CompiledRotor):
     @property
     def dynamic_pressure_area(self) -> float:
         """rho pi R^2 (Omega R)^2 [N]: a force over it is its coefficient."""
-        return self.condition.density * np.pi * self.rotor["radius"] ** 2 * self.tip_speed**2
+        return float(self.condition.density * np.pi * self.rotor["radius"] ** 2 * self.tip_speed**2)

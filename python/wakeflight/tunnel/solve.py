@@ -12,20 +12,21 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from .. import _core
-from ..errors import NumericalFailure
+from ..errors import NumericalFailure, known
 from ..exchange import Exchange
-from ..inflow import trim_model
 from ..progress import Progress, Silent
 from ..regime import AXIAL, REVOLUTIONS
 from ..trim import on_wake
 from ..trim.equations import inflow_of_states, trim_problem, unmet, without_inflow
-from ..trim.on_wake import PeriodicWake, TrimOnWake
+from ..trim.on_wake import TrimOnWake, Wake
 from ..trim.wake import WakeInTrim
 from .model import StandModel
 
 CHANGE_TOLERANCE = 1e-4
 """Change of pitch controls and blade harmonics [rad] between passes on the wake: leaves 0.03 % of the power of hover."""
-START = {"sweeps": 1, "max_loops": 4}
+PASSES = 15
+"""Passes of blades and relaxation wake at most."""
+START_SWEEPS, START_LOOPS = 1, 4
 """Relaxation that starts a marching full-span wake in axial flow: free sheets do not settle there, time means do."""
 
 SETTLED = 2e-4
@@ -109,17 +110,18 @@ def hybrid(model: StandModel, problem: _core.TrimProblem, x0: np.ndarray) -> np.
         method="hybr",
         options={"xtol": 1e-12, "maxfev": 400},
     )
-    return found.x
+    result: np.ndarray = found.x
+    return result
 
 
-class StandOnWake(TrimOnWake):
+class StandOnWake(TrimOnWake[StandModel, Wake]):
     """Trims of a rotor on its stand; its pitch controls and blade harmonics must rest. Not resting is a status, not an error."""
 
     where = ""
     moving = "blades"
 
     def __init__(
-        self, model: StandModel, progress: Progress | Silent, tolerance: float = CHANGE_TOLERANCE, passes: int = 15
+        self, model: StandModel, progress: Progress | Silent, tolerance: float = CHANGE_TOLERANCE, passes: int = PASSES
     ):
         super().__init__(model, progress, tolerance)
         self.passes = passes
@@ -138,9 +140,10 @@ class StandOnWake(TrimOnWake):
         scale = np.ones(after.size)
         for i, angle in enumerate(self.model.rotor["angle_per_coordinate"]):
             scale[modes[i] : modes[i + 1]] = angle
-        return (after - before) * scale
+        found: np.ndarray = (after - before) * scale
+        return found
 
-    def hopeless(self, wake: PeriodicWake, history: list[dict[str, float]]) -> bool:
+    def hopeless(self, wake: Wake, history: list[dict[str, float]]) -> bool:
         """Whether the last pass brought nothing: the inflow changes no less than three passes before."""
         recent = [each["inflow_change"] for each in history[-3:]]
         return not wake.converged and len(recent) == 3 and recent[-1] > 0.5 * recent[0]
@@ -161,13 +164,13 @@ def with_dynamic_inflow(model: StandModel, progress: Progress | Silent) -> Solut
     """The rotor with dynamic inflow: a result of its own, or the start of a free wake."""
     problem = trim_problem(model, None)
     start = hybrid(model, problem, first_guess(model, problem))
-    problem, x = StandOnWake(model, progress).solve(None, start)
+    problem, x = StandOnWake[WakeInTrim](model, progress).solve(None, start)
     n = model.steps_per_revolution
     turn = model.core.passages(problem, x, 2 * np.pi * np.arange(n) / n, None)
     return Solution(model, problem, x, turn["inflow"], turn["circulation"])
 
 
-def on_relaxation(model: StandModel, start: Solution, trimming: StandOnWake) -> Solution:
+def on_relaxation(model: StandModel, start: Solution, trimming: StandOnWake[WakeInTrim]) -> Solution:
     """Blade motion and relaxation wake in turn, from the solution with dynamic inflow."""
     inflow_map = inflow_of_states(start.model, start.problem, start.x, model.steps_per_revolution)
     wake = WakeInTrim(model, inflow_map)
@@ -187,13 +190,12 @@ class Revolutions:
         self.longest = revolutions or max(usual, (averaged or 0) + 2)
         self.averaged = min(averaged or means, self.longest)
         self.model, self.held = model, start.inflow_map
-        self.run = replace(
-            start, model=model, march=Exchange.marching(model, start.wake), history=list(start.history), settled=False
-        )
+        self.march = Exchange.marching(model, known(start.wake))
+        self.run = replace(start, model=model, march=self.march, history=list(start.history), settled=False)
 
     def turn(self, revolution: int, problem: _core.TrimProblem, x: np.ndarray) -> np.ndarray:
         """March one revolution: the inflow to be trimmed on."""
-        model, march, before = self.model, self.run.march, self.run.inflow_map
+        model, march, before = self.model, self.march, self.run.inflow_map
         turned = march_revolution(model, march, problem, x, self.run.snapshots)
         self.run.revolutions.append(turned)
         inflow_map = by_azimuth(turned.rows, turned.inflow, march.n)
@@ -243,19 +245,19 @@ def march_revolution(
     snapshots: list[_core.TimeMarchingWake],
 ) -> Revolution:
     """One revolution at the motion and pitch of `x`; `snapshots` then holds the wake of each of its steps."""
-    rows, inflow, path, watched, remembered = [], [], [], [], []
+    taken, inflows, path, watched, remembered = [], [], [], [], []
     snapshots.clear()
     for _ in range(march.n):
         row, lam, _ = march.frozen_step(problem, x)
-        rows.append(row)
-        inflow.append(lam)
+        taken.append(row)
+        inflows.append(lam)
         remembered.append(march.core.sections)
         path.append(march.position())
         watched.append(march.monitors)
         snapshots.append(march.wake())
-    rows, inflow = np.array(rows), np.array(inflow)
+    rows, inflow = np.array(taken), np.array(inflows)
     psi = 2 * np.pi * rows.ravel() / march.n
-    sections = remembered if model.remembers else None
+    sections = [known(each) for each in remembered] if model.remembers else None
     passages = model.core.passages(problem, x, psi, inflow.reshape(psi.size, -1), sections)
     shape = (march.n, model.n_blades, -1)
     passages = {name: values.reshape(shape) for name, values in passages.items()}
@@ -289,16 +291,16 @@ def solution(
         return start
     if not model.inflow.is_marching:
         return on_relaxation(model, start, StandOnWake(model, progress))
-    relaxation = trim_model(model.inflow)
+    relaxation = model.inflow.marching.trim_model()
     tumbling = model.condition.regime(model.tip_speed) in AXIAL and model.inflow.is_full_span
     if tumbling:
-        relaxation = replace(relaxation, **START)
+        relaxation = replace(relaxation, sweeps=START_SWEEPS, max_loops=START_LOOPS)
     relaxed = StandModel.build(model.aircraft, model.condition, relaxation, model.n_harmonics, model.blade_model)
-    trimming = StandOnWake(relaxed, progress, passes=1) if tumbling else StandOnWake(relaxed, progress)
+    trimming = StandOnWake[WakeInTrim](relaxed, progress, passes=1 if tumbling else PASSES)
     found = on_relaxation(relaxed, start, trimming)
     if tumbling:
         # no result, only a start
         found = replace(found, notes=())
     run = Revolutions(model, found, **turns)
     progress.phase("marching wake", run.longest)
-    return StandOnWake(model, progress).on_turns(run, found)
+    return StandOnWake[WakeInTrim](model, progress).on_turns(run, found)

@@ -74,11 +74,13 @@ class Solved:
         if not self.turns_kept:
             return np.zeros_like(mean)
         rows, values = self._passages(name)
-        return np.sqrt(by_azimuth(rows, (values - mean[rows]) ** 2, len(self.azimuth)))
+        found: np.ndarray = np.sqrt(by_azimuth(rows, (values - mean[rows]) ** 2, len(self.azimuth)))
+        return found
 
     def _mean_load(self, name: str) -> np.ndarray:
         """Mean of a load of all blades (3,)."""
-        return self.model.n_blades * self.mean_by_azimuth(name).mean(axis=0)
+        found: np.ndarray = self.model.n_blades * self.mean_by_azimuth(name).mean(axis=0)
+        return found
 
     @cached_property
     def azimuth(self) -> np.ndarray:
@@ -121,7 +123,7 @@ class Solved:
     @property
     def radius(self) -> float:
         """Rotor radius [m]."""
-        return self.model.rotor["radius"]
+        return float(self.model.rotor["radius"])
 
     @property
     def thrust(self) -> float:
@@ -227,6 +229,9 @@ class Solved:
         if s.wake is None:
             raise InputError.of("inflow", self.model.inflow.name, "has no wake to ask; use relaxation or time-marching")
         if s.march is not None:
-            return np.mean([wake.wake_velocity(at) for wake in s.snapshots], axis=0)
-        passage = range(self.model.steps_per_revolution // self.model.n_blades)
-        return np.mean([s.wake.relaxation.wake_velocity(at, k) for k in passage], axis=0)
+            velocities = [wake.wake_velocity(at) for wake in s.snapshots]
+        else:
+            passage = range(self.model.steps_per_revolution // self.model.n_blades)
+            velocities = [s.wake.relaxation.wake_velocity(at, k) for k in passage]
+        found: np.ndarray = np.mean(velocities, axis=0)
+        return found

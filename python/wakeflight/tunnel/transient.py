@@ -13,7 +13,6 @@ import numpy as np
 from ..errors import InputError, NumericalFailure
 from ..exchange import Exchange
 from ..integrators import FixedIntegrator
-from ..model import at_speed
 from ..monitors import Places, failures, rotor
 from ..progress import Progress, Silent
 from ..rotor_speed import CONSTANT, Clock, RotorSpeed, shares
@@ -166,7 +165,7 @@ class OnStand(Stepping):
         begun, trimmed = model.clock.time(self.first), (s.problem, s.x)
         dynamic = s.march is None
         sections = model.core.trim_sections(*trimmed, begun) if dynamic else None
-        self.exchange = Exchange.dynamic(model, sections) if dynamic else s.march.copy()
+        self.exchange = Exchange.dynamic(model, sections) if s.march is None else s.march.copy()
         y, _ = model.core.trim_state(*trimmed, begun)
         self._begin(model, FixedIntegrator(model), y, s.x[:3], self.first)
 
@@ -182,7 +181,7 @@ def transient(
     """See `Tunnel.transient`."""
     from ..results import assemble_transient
 
-    solution, model = stand.solution, at_speed(stand.model, speed_history(rotor_speed))
+    solution, model = stand.solution, stand.model.at_speed(speed_history(rotor_speed))
     if solution.march is None and not model.inflow.is_dynamic:
         raise InputError.of("inflow", model.inflow.name, "a transient needs inflow time-marching or dynamic")
     if model.aircraft.discretisation.n_modes and not model.n_harmonics:

@@ -64,7 +64,8 @@ def tolerance(check: Check) -> str:
 
 def words(text: str) -> str:
     """The little Markdown that a README uses: headings, paragraphs, lists, emphasis, code."""
-    blocks, rows = [], []
+    blocks: list[str] = []
+    rows: list[str] = []
 
     def inline(line: str) -> str:
         line = html.escape(line, quote=False)

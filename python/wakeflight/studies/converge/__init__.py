@@ -49,7 +49,7 @@ def converge(
     chosen = parameter(vary)
     given = settings(chosen, values)
     repeated, base = _run(chosen, run, aircraft, condition, inflow, revolutions, integrator, stand)
-    check_run(chosen, run if isinstance(run, str) else "flight", base.inflow)
+    check_run(chosen, run if isinstance(run, str) else "flight", base.flown_inflow)
     cases = [applied(chosen, setting, base) for setting in given]
     for case in cases:
         repeated.check(case)

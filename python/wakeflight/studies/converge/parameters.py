@@ -5,11 +5,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import Any, Literal
+from typing import Any, Literal, TypeVar
 
 from ...arguments import is_number, is_whole
 from ...errors import InputError, one_line
-from ...inflow import InflowModel
+from ...inflow import Inflow, InflowModel, RelaxationWake
 from ...options import DECLARED, options_of
 from ...units import quantity
 from ..case import Case
@@ -22,6 +22,7 @@ CONTROL_TOLERANCE = 1e-5
 
 Part = Literal["inflow", "aircraft", "trim", "flight"]
 Kind = Literal["angle", "whole", "number"]
+Model = TypeVar("Model", bound=Inflow)
 
 
 @dataclass(frozen=True)
@@ -160,12 +161,13 @@ def applied(chosen: Parameter, setting: Setting, case: Case) -> Case:
     return replace(case, **{chosen.option: setting.argument})
 
 
-def tightened(chosen: Parameter, inflow: InflowModel) -> InflowModel:
+def tightened(chosen: Parameter, inflow: Model) -> Model | RelaxationWake:
     """Inflow model of a trim with its iterations tight, unless they are what is varied."""
     if not inflow.is_relaxed or chosen.option == "inflow_tolerance":
         return inflow
-    tolerance = min(inflow.inflow_tolerance, INFLOW_TOLERANCE)
-    return replace(inflow, inflow_tolerance=tolerance, max_loops=max(inflow.max_loops, 100))
+    wake = inflow.relaxed
+    tolerance = min(wake.inflow_tolerance, INFLOW_TOLERANCE)
+    return replace(wake, inflow_tolerance=tolerance, max_loops=max(wake.max_loops, 100))
 
 
 def check_run(chosen: Parameter, run: str, inflow: InflowModel) -> None:

@@ -8,7 +8,7 @@ from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from ...errors import InputError, NumericalFailure
+from ...errors import InputError, NumericalFailure, known
 from ...flight import flown_steps
 from ...inflow import trim_model
 from ...model import Model, flight_regime
@@ -208,21 +208,21 @@ class FlightRun:
     def title(self, case: Case) -> str:
         """What is run."""
         flown = f", {case.revolutions:g} revolutions" if case.revolutions is not None else ""
-        return f"{case.maneuver.name}{flown}"
+        return f"{known(case.maneuver).name}{flown}"
 
     def check(self, case: Case) -> None:
         """Compile the aircraft; the manoeuvre must fit its sticks."""
         model = build(case)
-        travel = case.aircraft.stick_travel_in
-        flown = case.maneuver.for_aircraft(travel, model.omega)
+        travel = case.helicopter.stick_travel_in
+        flown = known(case.maneuver).for_aircraft(travel, model.omega)
         flown.check_span(travel)
         flown_steps(model, flown, case.revolutions)
 
     def outcome(self, case: Case, progress: Progress | Silent) -> Outcome:
         """Histories of the flight."""
-        trimmed_with = tightened(self.varied, trim_model(case.inflow))
+        trimmed_with = tightened(self.varied, trim_model(case.flown_inflow))
         done = finished(run(replace(case, trim_inflow=trimmed_with), progress, self.trims))
-        data, start = done.data, done.start
+        data, start = done.data, known(done.start)
         samples = np.column_stack([q.factor * data[q.name].values for q in self.quantities])
         counted = {name: int(data.attrs[name]) for name in COUNTED if name in data.attrs}
         trimmed = {f"trim_{name}": n for name, n in start.answer.counters.items()}
@@ -244,10 +244,11 @@ def finished(done: Done) -> Done:
 
 def build(case: Case) -> Model:
     """The compiled model; what the physics core refuses becomes an error of the input."""
-    inflow = case.inflow.resolved(flight_regime(case.aircraft, case.condition))
-    inflow.check_on(case.aircraft)
+    aircraft, condition = case.helicopter, known(case.condition)
+    inflow = case.flown_inflow.resolved(flight_regime(aircraft, condition))
+    inflow.check_on(aircraft)
     try:
-        return Model.build(case.aircraft, case.condition, inflow)
+        return Model.build(aircraft, condition, inflow)
     except ValueError as reason:
         raise InputError(f"{case.aircraft.path}: {reason}") from None
 

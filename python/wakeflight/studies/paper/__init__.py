@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from ...progress import Progress
@@ -34,7 +34,8 @@ def reproduce(
     cases = [*base_cases(), *question_cases(), *reading_cases()]
     folder = out_dir / "flights"
     runs = load_all(cases, folder) if redraw else fly_all(cases, folder, workers, progress)
-    found, missed = [], []
+    found: list[Any] = []
+    missed: list[Any] = []
     if with_studies:
         more = studies.cases()
         failures = {} if redraw else attempt(more, folder, workers, progress)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ...inflow import DynamicInflow, RelaxationWake, TimeMarchingWake, trim_model
 from ..case import Case
@@ -66,8 +66,9 @@ class Planned:
         from ...maneuvers import SHIPPED, load_maneuver
 
         aircraft = _aircraft(self.modes)
-        condition = condition_for(aircraft, named=self.condition, **dict(self.given))
-        maneuver = load_maneuver(self.maneuver) if self.maneuver in SHIPPED else self.maneuver
+        given: dict[str, Any] = dict(self.given)
+        condition = condition_for(aircraft, named=self.condition, **given)
+        maneuver: Any = load_maneuver(self.maneuver) if self.maneuver in SHIPPED else self.maneuver
         return Case(
             aircraft,
             self.inflow,
@@ -91,7 +92,7 @@ def _trim_inflow(model: InflowModel) -> InflowModel:
     """Model of the trim; the cap in flight is no part of it."""
     found = trim_model(model)
     if "max_loops_response" in found.as_attributes():
-        found = replace(found, max_loops_response=RelaxationWake.preset("paper").max_loops_response)
+        return replace(found.relaxed, max_loops_response=RelaxationWake.preset("paper").max_loops_response)
     return found
 
 

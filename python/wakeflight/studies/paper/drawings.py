@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -51,7 +51,8 @@ def stacked_maps(fields: Mapping[str, xr.DataArray], label: str, symmetric: bool
 def _ring_means(axes: Axes, fields: Mapping[str, xr.DataArray], label: str) -> None:
     """Means over the azimuth by radius."""
     for model, field in fields.items():
-        axes.plot(field["station"].values, field.values.mean(axis=0), label=model, **LOOKS[model])
+        look: dict[str, Any] = {**LOOKS[model]}
+        axes.plot(field["station"].values, field.values.mean(axis=0), label=model, **look)
     axes.set(xlabel="r/R [–]", ylabel=f"{label}, mean over ψ", title="mean over the azimuth")
     axes.legend()
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ...plotting import disk, histories, trim_maps
 from ...plotting.histories import DEG, Panel
@@ -58,7 +58,7 @@ def _maps(runs: Runs, variable: str, revolution: float, label: str) -> Figure:
         "inflow change": lambda run: change_from_trim(run, "inflow", revolution),
         "roll contribution": lambda run: roll_weight(disk.revolution_map(run, "cl_m2", revolution)),
     }
-    make = makers.get(variable, lambda run: disk.revolution_map(run, variable, revolution))
+    make: Any = makers.get(variable, lambda run: disk.revolution_map(run, variable, revolution))
     fields = {model: make(runs[model]) for model in ("time-marching", "relaxation")}
     return drawings.stacked_maps(fields, label, symmetric=variable in makers, revolution=revolution)
 

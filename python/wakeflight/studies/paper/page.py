@@ -6,8 +6,9 @@ from __future__ import annotations
 import base64
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ...atomic import write_text
 from ...export import vtk
@@ -54,7 +55,7 @@ def write(
     shown = (*MANEUVERS, AUGMENTED)
     flights = {maneuver: {model: runs[f"{maneuver}/{model}"] for model in MODELS} for maneuver in shown}
     table, both = judge(runs), readings.judged(runs)
-    figures = [_draw(f.name, f.caption, lambda f=f: f.draw(flights[f.maneuver]), out_dir) for f in FIGURES]
+    figures = [_draw(f.name, f.caption, partial(f.draw, flights[f.maneuver]), out_dir) for f in FIGURES]
     figures.insert(0, _draw("figure-02", extras.SEQUENCE_CAPTION, lambda: extras.sequence(runs), out_dir))
     beyond = {
         "convergence": _draw("convergence", extras.CONVERGENCE_CAPTION, lambda: extras.convergence(runs), out_dir),
@@ -89,7 +90,7 @@ def write(
         cost_rows=cost.table(runs),
         cap_head=cost.CAP_HEAD,
         cap_rows=cost.cap_table(runs),
-        studies=[(f, _draw(f"study-{f.name}", f.done, lambda f=f: f.figure, out_dir)) for f in findings],
+        studies=[(f, _draw(f"study-{f.name}", f.done, partial(_figure_of, f), out_dir)) for f in findings],
         missed=list(missed),
         configurations={name: configuration(run) for name, run in runs.items()},
         panels=len(MODELS),
@@ -112,7 +113,13 @@ def _draw(name: str, caption: str, draw: Callable[[], Figure], out_dir: Path) ->
     return Drawn(name, caption, base64.b64encode(path.read_bytes()).decode("ascii"))
 
 
-def _side_by_side(rows_of: Callable, runs: Runs) -> list[tuple[str, list[str]]]:
+def _figure_of(finding: Any) -> Figure:
+    """The figure of a study."""
+    figure: Figure = finding.figure
+    return figure
+
+
+def _side_by_side(rows_of: Callable[[xr.Dataset], Any], runs: Runs) -> list[tuple[str, list[str]]]:
     """Rows of all runs side by side; a dash where a run has none."""
     columns = [{row.label: row.value for row in rows_of(run)} for run in runs.values()]
     labels = list(dict.fromkeys(label for column in columns for label in column))

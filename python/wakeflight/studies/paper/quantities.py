@@ -37,7 +37,8 @@ def smoothed(run: xr.Dataset, name: str) -> np.ndarray:
 
 def window(run: xr.Dataset, start: float = 0.0, end: float = np.inf) -> np.ndarray:
     """Which records lie between two times [s]."""
-    return (run.time.values >= start - 1e-9) & (run.time.values <= end + 1e-9)
+    found: np.ndarray = (run.time.values >= start - 1e-9) & (run.time.values <= end + 1e-9)
+    return found
 
 
 def extreme(
@@ -129,7 +130,8 @@ def snapshot_at(run: xr.Dataset, revolution: float) -> int:
 
 def filament(run: xr.Dataset, revolution: float, blade: int = 0) -> np.ndarray:
     """Tip vortex of one blade at a revolution (n_ages, 3), over R."""
-    return run["wake"].values[snapshot_at(run, revolution), blade] / float(run.attrs["radius"])
+    found: np.ndarray = run["wake"].values[snapshot_at(run, revolution), blade] / float(run.attrs["radius"])
+    return found
 
 
 def first_turn_rms(a: np.ndarray, b: np.ndarray, n: int = 37) -> float:
@@ -140,7 +142,8 @@ def first_turn_rms(a: np.ndarray, b: np.ndarray, n: int = 37) -> float:
 def axis_of(nodes: np.ndarray, n: int = 36) -> np.ndarray:
     """Centre line of a filament: mean of its nodes over one turn of age, moving along it (n_ages - n, 3)."""
     total = np.cumsum(np.concatenate([np.zeros((1, 3)), nodes]), axis=0)
-    return (total[n:] - total[:-n]) / n
+    found: np.ndarray = (total[n:] - total[:-n]) / n
+    return found
 
 
 def bend(nodes: np.ndarray) -> float:

@@ -3,8 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -39,9 +39,19 @@ def statements(runs: Mapping[str, xr.Dataset]) -> list[Statement]:
     ]
 
 
-def named(runs: Mapping[str, xr.Dataset], quantity: object, *models: str) -> list[tuple[str, float]]:
+Named = tuple[str, float]
+"""A quantity with the name of its model."""
+
+
+def named(runs: Mapping[str, Any], quantity: Callable[[Any], Any], *models: str) -> list[Named]:
     """A quantity of several models, each with its name."""
-    return [(model, float(quantity(runs[model]))) for model in models]  # type: ignore[operator]
+    return [(model, float(quantity(runs[model]))) for model in models]
+
+
+def pair(runs: Mapping[str, Any], quantity: Callable[[Any], Any], first: str, second: str) -> tuple[Named, Named]:
+    """A quantity of two models, each with its name."""
+    a, b = named(runs, quantity, first, second)
+    return a, b
 
 
 def trim_inflow(runs: Mapping[str, xr.Dataset]) -> Statement:
@@ -260,7 +270,7 @@ def trims(runs: Mapping[str, xr.Dataset]) -> Statement:
 def lift(runs: Mapping[str, xr.Dataset]) -> Statement:
     """Figure 8: lift after five revolutions."""
     maps = {m: revolution_map(runs[m], "cl_m2", AFTER) for m in (RX, TM)}
-    ahead = named(maps, lambda field: q.sector_mean(field, (90, 180), (0.6, 1)), RX, TM)
+    ahead = pair(maps, lambda field: q.sector_mean(field, (90, 180), (0.6, 1)), RX, TM)
     outer = {m: q.sector_mean(maps[m], radius=(0.7, 1.0)) / q.sector_mean(maps[m], radius=(0.0, 0.5)) for m in maps}
     return Statement(
         "Fig. 8",
@@ -291,8 +301,8 @@ def lift_coefficient(runs: Mapping[str, xr.Dataset]) -> Statement:
                 ("retreating", sides["retreating"]),
                 ("advancing", sides["advancing"]),
             ),
-            larger("share of the disk with C_l > 0.9", *named(maps, lambda f: q.area_above(f, 0.9), RX, TM)),
-            larger("mean C_l over the disk", *named(maps, q.sector_mean, RX, TM)),
+            larger("share of the disk with C_l > 0.9", *pair(maps, lambda f: q.area_above(f, 0.9), RX, TM)),
+            larger("mean C_l over the disk", *pair(maps, q.sector_mean, RX, TM)),
         ),
         figure="figure-09",
     )
@@ -307,11 +317,11 @@ def inflow_change(runs: Mapping[str, xr.Dataset]) -> Statement:
         "positive aft and less "
         "negative forward.",
         (
-            larger("mean change over the disk", *named(maps, q.sector_mean, RX, TM)),
-            larger("mean change aft (|ψ| < 90°)", *named(maps, lambda f: q.sector_mean(f, (-90, 90)), RX, TM)),
+            larger("mean change over the disk", *pair(maps, q.sector_mean, RX, TM)),
+            larger("mean change aft (|ψ| < 90°)", *pair(maps, lambda f: q.sector_mean(f, (-90, 90)), RX, TM)),
             larger(
                 "most negative change forward",
-                *named(maps, lambda f: float(f.values[q.in_sector(f, (90, 270))].min()), RX, TM),
+                *pair(maps, lambda f: float(f.values[q.in_sector(f, (90, 270))].min()), RX, TM),
             ),
         ),
         figure="figure-10",

@@ -10,7 +10,7 @@ import numpy as np
 
 from ....plotting.disk import revolution_map
 from .. import quantities as q
-from .descent import DI, RX, TM, named
+from .descent import DI, RX, TM, named, pair
 from .verdict import Condition, Statement, above, larger, ordered, within
 
 if TYPE_CHECKING:
@@ -225,8 +225,8 @@ def roll_contribution(runs: Mapping[str, xr.Dataset]) -> Statement:
     ends = {
         part: q.sector_mean(abs(maps[TM]), span, (0.6, 1)) for part, span in (("rear", (-90, 90)), ("front", (90, 270)))
     }
-    roll = named(maps, lambda f: abs(q.sector_mean(f)), TM, RX)
-    down = named(lifts, lambda f: -q.sector_mean(pitch_weight(f)), TM, RX)
+    roll = pair(maps, lambda f: abs(q.sector_mean(f)), TM, RX)
+    down = pair(lifts, lambda f: -q.sector_mean(pitch_weight(f)), TM, RX)
     return Statement(
         "Fig. 15",
         "Contributions to the rolling moment (C_l M² r̄ sin ψ) after 15 revolutions come mainly from the "
@@ -249,8 +249,8 @@ def lift(runs: Mapping[str, xr.Dataset]) -> Statement:
     """Figure 16: lift after 15 revolutions."""
     maps = {m: revolution_map(runs[m], "cl_m2", AFTER) for m in (RX, TM)}
     psi, radius, _ = q.place_of_largest(maps[TM], absolute=False)
-    rear = named(maps, lambda f: q.sector_mean(f, (-90, 90), (0.6, 1)), TM, RX)
-    front = named(maps, lambda f: q.sector_mean(f, (90, 270), (0.6, 1)), RX, TM)
+    rear = pair(maps, lambda f: q.sector_mean(f, (-90, 90), (0.6, 1)), TM, RX)
+    front = pair(maps, lambda f: q.sector_mean(f, (90, 270), (0.6, 1)), RX, TM)
     return Statement(
         "Fig. 16",
         "Lift (C_l M²) after 15 revolutions is largest at the rear of the advancing side; time marching has "
@@ -279,7 +279,7 @@ def lift_coefficient(runs: Mapping[str, xr.Dataset]) -> Statement:
                 f"{value:.2f} at ψ = {psi:.0f}°, r/R = {radius:.2f}",
                 bool(rear and radius < 0.7),
             ),
-            larger("share of the disk with C_l > 0.9", *named(maps, lambda f: q.area_above(f, 0.9), RX, TM)),
+            larger("share of the disk with C_l > 0.9", *pair(maps, lambda f: q.area_above(f, 0.9), RX, TM)),
         ),
         figure="figure-17",
     )
@@ -297,7 +297,7 @@ def inflow_change(runs: Mapping[str, xr.Dataset]) -> Statement:
             above("correlation of the two maps", alike, 0.8),
             larger(
                 "mean over ψ = −60…60°, r/R > 0.7",
-                *named(maps, lambda f: q.sector_mean(f, (-60, 60), (0.7, 1)), RX, TM),
+                *pair(maps, lambda f: q.sector_mean(f, (-60, 60), (0.7, 1)), RX, TM),
             ),
         ),
         figure="figure-18",

@@ -4,9 +4,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from ....inflow import RelaxationWake, TimeMarchingWake
+from ....inflow import InflowModel, RelaxationWake, TimeMarchingWake
 from ....plotting import style
 from ....plotting.style import styled
 from ..cases import MANEUVERS, MODELS, Planned
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     Runs = Mapping[str, xr.Dataset]
 
-WAKES = {
+WAKES: dict[str, InflowModel] = {
     "relaxation": RelaxationWake.preset("paper", tip_strength="max"),
     "time-marching": TimeMarchingWake.preset("paper", tip_strength="max"),
 }
@@ -36,7 +36,7 @@ def cases() -> list[Planned]:
     ]
 
 
-def judged(runs: Runs, prefix: str = "") -> list:
+def judged(runs: Runs, prefix: str = "") -> list[Any]:
     """Rows of Figures 3 to 19 with the wakes of `prefix`."""
     flights = {
         maneuver: {model: runs[f"{prefix if model != 'dynamic' else ''}{maneuver}/{model}"] for model in MODELS}

@@ -70,7 +70,7 @@ def moment_timing(runs: Runs) -> str:
         f"Our dynamic inflow is {slower}: its mean inflow peaks at {peak[DI]:.2f} s, that of time marching at "
         f"{peak[TM]:.2f} s. "
         f"The moment peaks {listed(after, '+.2f')} s after the control; after 2 s it is "
-        f"{against(*late, 'larger', 'smaller', 'equal')} with "
+        f"{against(late[0], late[1], 'larger', 'smaller', 'equal')} with "
         f"time marching, by {100 * abs(late[0] - late[1]) / top:.1f} % of the peak ({top / 1e3:.0f} kN m)."
     )
 
@@ -117,7 +117,7 @@ def trims(runs: Runs) -> str:
     return (
         "At a given flight path θ and w say the same thing (tan(θ − γ) = w/u), so these are one difference, of "
         f"{q.DEG * (float(a['pitch'][0]) - float(b['pitch'][0])):+.2f}°; it goes with "
-        f"{against(*inflow, 'more', 'less', 'the same')} mean inflow ({inflow[0]:.4f} against {inflow[1]:.4f}) and "
+        f"{against(inflow[0], inflow[1], 'more', 'less', 'the same')} mean inflow ({inflow[0]:.4f} against {inflow[1]:.4f}) and "
         f"{100 * power:+.0f} % of power with dynamic inflow."
     )
 

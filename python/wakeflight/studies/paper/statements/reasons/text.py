@@ -123,7 +123,7 @@ def sample_and_hold(runs: Runs) -> str:
     """Conclusions 2 and 3."""
     late = {m: lag(runs[f"{m}/{RX}"], runs[f"{m}/{TM}"], "inflow_mean") for m in (D, R)}
     mean = {m: [float(runs[f"{m}/{wake}"]["inflow_mean"].mean()) for wake in (RX, TM)] for m in (D, R)}
-    words = {m: against(*mean[m], "more", "less", "the same") for m in (D, R)}
+    words = {m: against(mean[m][0], mean[m][1], "more", "less", "the same") for m in (D, R)}
     delayed = 0.1 < late[D] < 1.0
     same = all(word == "the same" for word in words.values())
     return (
@@ -141,8 +141,8 @@ def already_apart(runs: Runs) -> str:
     """Conclusion 5."""
 
     def apart(maneuver: str, revolution: float, old: bool = False) -> float:
-        pair = [q.filament(runs[f"{maneuver}/{m}"], revolution) for m in (RX, TM)]
-        return q.first_turn_rms(*((nodes[-73:] for nodes in pair) if old else pair), 73)
+        a, b = (q.filament(runs[f"{maneuver}/{m}"], revolution) for m in (RX, TM))
+        return q.first_turn_rms(a[-73:], b[-73:], 73) if old else q.first_turn_rms(a, b, 73)
 
     trim = apart(D, 0.0)
     young = {D: [apart(D, n) for n in (5.0, 8.0, 10.0)], R: [apart(R, n) for n in (15.0, 18.0, 21.0)]}
