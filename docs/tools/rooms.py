@@ -28,7 +28,7 @@ ROOMS = {
     "flight": ("flight*", "recorder", "resuming", "runlog", "simulation", "stepping", "snapshot", "integrators"),
     "tunnel": ("tunnel",),
     "trim": ("trim",),
-    "exchange": ("exchange",),
+    "exchange": ("exchange", "wind"),
     "model": ("model", "modes", "vortex", "wing", "airfoil_loop"),
     "monitors": ("monitors", "limits"),
     "aircraft": ("aircraft", "thinning", "file_schemas"),

@@ -28,6 +28,7 @@ from .options import Radians, options_of
 from .progress import Progress, Silent
 from .rotor_speed import CONSTANT, RotorSpeed
 from .trim import Trim, trim
+from .wind import Wind, wind_of_table
 
 VERSION = 1
 
@@ -44,6 +45,7 @@ class Plan:
     stabilator: str = "held"
     rotor_speed: RotorSpeed | Engine = CONSTANT
     control: Augmentation | None = None
+    wind: Wind | None = None
 
 
 @dataclass(frozen=True)
@@ -105,7 +107,8 @@ class FlightInput:
             "flight": dict(_held(plan))
             | {"maneuver": {name: value for name, value in _held(plan.maneuver) if name != "control"}}
             | {"inflow": _told(plan.inflow), "rotor_speed": told(plan.rotor_speed)}
-            | {"control": None if plan.control is None else plan.control.described()},
+            | {"control": None if plan.control is None else plan.control.described()}
+            | {"wind": None if plan.wind is None else plan.wind.described()},
         }
         return json.dumps(whole, allow_nan=False, ensure_ascii=False, default=_number)
 
@@ -127,6 +130,9 @@ class FlightInput:
                 plan["control"] = control
             elif plan["control"] is not None:
                 plan["control"] = from_description(plan["control"])
+            # an input of an earlier version says nothing of wind
+            if plan.get("wind") is not None:
+                plan["wind"] = wind_of_table(plan["wind"])
             aircraft = Bundle.from_dict(whole["aircraft"]).aircraft()
             found = cls(aircraft, Asked(**asked), Plan(**plan), whole["made"])
             vars(found)["text"] = text

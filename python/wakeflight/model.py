@@ -13,7 +13,6 @@ import numpy as np
 from . import _core
 from .aircraft import Aircraft
 from .condition import FlightCondition, Target
-from .errors import InputError
 from .inflow import InflowModel, RelaxationWake
 from .monitors import Bounds, bounds
 from .results import disk
@@ -218,12 +217,9 @@ Compiled = TypeVar("Compiled", bound=CompiledRotor)
 
 
 def at_speed(model: Compiled, corners: Corners) -> Compiled:
-    """`model` with its rotor at the speed of `corners`; itself where there are none. A free wake has none yet."""
+    """`model` with its rotor at the speed of `corners`; itself where there are none."""
     if not corners:
         return model
-    if not model.inflow.is_dynamic:
-        allowed = f"must be constant with a free wake (inflow = {model.inflow.name}); it needs inflow = dynamic"
-        raise InputError.of("rotor_speed", "a history", allowed)
     core = model.core.with_rotor_speed([(t, share * model.omega) for t, share in corners])
     return replace(model, core=core, rotor_speed=corners)
 

@@ -100,6 +100,11 @@ RotorSpeedName = Annotated[
     ),
 ]
 
+WindName = Annotated[
+    str | None,
+    typer.Option("--wind", metavar="TEXT|FILE", help='"10 kt from 270 deg", or a TOML file', show_default="none"),
+]
+
 
 class Group:
     """Options that belong together: a frozen dataclass, every field annotated with its option and given a default."""
