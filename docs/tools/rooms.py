@@ -40,7 +40,7 @@ ROOMS = {
     ),
     "tunnel": ("tunnel",),
     "trim": ("trim",),
-    "exchange": ("exchange",),
+    "exchange": ("exchange", "wind"),
     "model": ("model", "modes", "vortex", "wing", "airfoil_loop"),
     "monitors": ("monitors", "limits"),
     "aircraft": ("aircraft", "thinning", "file_schemas"),

@@ -11,6 +11,7 @@ import numpy as np
 from . import _core
 from .errors import known
 from .model import CompiledRotor
+from .wind import Air
 
 
 class Trimmed(Protocol):
@@ -72,15 +73,17 @@ class Exchange:
         stick_rate: np.ndarray,
         motion: tuple[np.ndarray, np.ndarray] | None = None,
         flown: tuple[float, float, _core.Inputs] | None = None,
+        air: Air | None = None,
     ) -> None:
         """States have reached `step`: a marching wake follows, a relaxation wake is renewed where that is due.
 
         stick, stick_rate: controls as the trim has them; a rotor on a stand has no use for the fourth. motion: modal coordinates
         and rates (n_blades, n_modes) that stand for those of `y`. flown: end and begin of the step [s] and what acted at its
-        end; None: a step of azimuth at the nominal speed.
+        end; None: a step of azimuth at the nominal speed. air: wind there; that at the hub carries the wake.
         """
         n = self.model.n_controls
-        self.core.advance(self.model.core, step, y, (stick[:n], stick_rate[:n]), motion, flown)
+        wind = None if air is None else (air.at_hub, air.stations)
+        self.core.advance(self.model.core, step, y, (stick[:n], stick_rate[:n]), motion, flown, wind)
 
     def remembering(self, inputs: _core.Inputs, begun: float) -> _core.Inputs:
         """`inputs` of the step that begins at `begun` [s], with what the sections remember there."""

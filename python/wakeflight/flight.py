@@ -32,6 +32,7 @@ from .simulation import Simulation
 from .thinning import thinned
 from .trim import INCH, Trim
 from .views import html_table
+from .wind import wind_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -129,6 +130,7 @@ def fly(
     control: Any = None,
     actuators: Any = None,
     out: str | Path | None = None,
+    wind: Any = None,
 ) -> Flight:
     """Fly `maneuver` from `start`.
 
@@ -138,11 +140,15 @@ def fly(
     stabilator: `held` at its trim incidence, or `scheduled`, following its schedule within the rate of its servo.
     rotor_speed: `constant`, or pairs (time, share of the nominal speed) such as `[("0.5 s", 1.0), ("1.5 s", 0.95)]`, linear
     between them and steady after the last; `governed`, azimuth and speed as states, held by the engines' governor; `free`, the
-    same with the torque of the trim; or an `Engine`, such as `wf.GovernedEngine(failure="1 s")`. With dynamic inflow. The tail
+    same with the torque of the trim; or an `Engine`, such as `wf.GovernedEngine(failure="1 s")`. The tail
     rotor is geared to the main rotor; a coupling step stays a step of azimuth, so that times are not equidistant; coefficients
     and inflow are counted at the nominal speed. The flight has the revolutions that its duration has at the speed it begins at.
     control: what is between sticks and blades: a `wf.Controller`, a list of them or a `wf.Augmentation`; None is the manoeuvre's
     own, where its file has one; an empty list: nothing. actuators: servos behind the mixing unit, `generic` or `wf.Servos(...)`.
+
+    wind: `wf.SteadyWind`, `wf.Gust`, `wf.Dryden`, `wf.VonKarman`, `wf.WindField`, several of them in a list, or a function of
+    points (n, 3) [m] and time [s] in inertial axes that gives the velocity of the air there (n, 3) [m/s]; held over a coupling
+    step. The speed of the trim is that through the air. A wake is carried by the wind at the hub.
 
     inflow: name or model, by default time-marching from a trim on a free wake, dynamic from a dynamic one. Wake options that
     depend on the regime (turns kept, far wake, relaxation) stay those of the trimmed condition for the whole flight, whatever
@@ -157,7 +163,9 @@ def fly(
     maneuver = maneuver.for_aircraft(start.aircraft.stick_travel_in, start.model.omega)
     made = augmentation(maneuver.control if control is None else control, actuators)
     speed = planned(rotor_speed)
-    plan = Plan(replace(maneuver, control=None), inflow, revolutions, integrator, rtol, stabilator, speed, made)
+    plan = Plan(
+        replace(maneuver, control=None), inflow, revolutions, integrator, rtol, stabilator, speed, made, wind_of(wind)
+    )
     given = FlightInput.of(start.aircraft, Asked.of(start), plan)
     flying = Flying(start, given, progress)
     if out is None:
@@ -179,7 +187,14 @@ class Flying:
         self._begun = time.perf_counter()
         plan = given.plan
         self.sim = Simulation.prepared(
-            start, plan.inflow, plan.integrator, plan.rtol, plan.stabilator, plan.rotor_speed, plan.control
+            start,
+            plan.inflow,
+            plan.integrator,
+            plan.rtol,
+            plan.stabilator,
+            plan.rotor_speed,
+            plan.control,
+            plan.wind,
         )
         model, clock = self.sim.model, self.sim.clock
         travel = start.aircraft.stick_travel_in

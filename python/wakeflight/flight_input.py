@@ -31,6 +31,7 @@ from .progress import Progress, Silent
 from .rotor_speed import CONSTANT, RotorSpeed
 from .snapshot import Snapshot
 from .trim import Trim, trim
+from .wind import Wind, wind_of_table
 
 VERSION = 1
 
@@ -53,6 +54,7 @@ class Plan:
     control: Augmentation | None = None
     begin: Snapshot | None = None
     lattice: bool = True
+    wind: Wind | None = None
 
 
 @dataclass(frozen=True)
@@ -115,7 +117,10 @@ class FlightInput:
             | {"maneuver": {name: value for name, value in _held(plan.maneuver) if name != "control"}}
             | {"inflow": _told(plan.inflow), "rotor_speed": told(plan.rotor_speed)}
             | {"control": None if plan.control is None else plan.control.described()}
-            | {"begin": None if plan.begin is None else base64.b64encode(plan.begin.to_bytes()).decode("ascii")},
+            | {
+                "begin": None if plan.begin is None else base64.b64encode(plan.begin.to_bytes()).decode("ascii"),
+                "wind": None if plan.wind is None else plan.wind.described(),
+            },
         }
         return json.dumps(whole, allow_nan=False, ensure_ascii=False, default=_number)
 
@@ -139,6 +144,9 @@ class FlightInput:
                 plan["control"] = from_description(plan["control"])
             if plan.get("begin") is not None:
                 plan["begin"] = Snapshot.from_bytes(base64.b64decode(plan["begin"]))
+            # an input of an earlier version says nothing of wind
+            if plan.get("wind") is not None:
+                plan["wind"] = wind_of_table(plan["wind"])
             aircraft = Bundle.from_dict(whole["aircraft"]).aircraft()
             found = cls(aircraft, Asked(**asked), Plan(**plan), whole["made"])
             vars(found)["text"] = text

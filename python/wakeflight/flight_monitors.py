@@ -9,6 +9,7 @@ from .monitors import Monitor, Places, airframe, rotor
 from .recorder import Recorder
 from .sticks import INCH, STICKS
 from .trim.monitors import section_monitors
+from .wind import passing
 
 
 def monitors(run: Recorder) -> tuple[Monitor, ...]:
@@ -19,10 +20,11 @@ def monitors(run: Recorder) -> tuple[Monitor, ...]:
     time, y, stick = run.time[:n], run.state[:n], run.stick[:n]
     places = Places(model.bounds.station, run.azimuth[:n], time)
     fields = {name: run.blade[name][:n] for name in ("inflow", "mach", "alpha")}
-    velocity = np.array([model.core.hub(row)[0] for row in y]) / model.tip_speed
+    flown = y if run.wind is None else np.array([passing(*row) for row in zip(y, run.wind[:n], strict=True)])
+    velocity = np.array([model.core.hub(row)[0] for row in flown]) / model.tip_speed
     mu, mu_z = np.hypot(velocity[:, 0], velocity[:, 1]), -velocity[:, 2]
     theta = np.array([model.pitch_controls(row) for row in stick])[:, [2, 0, 1]]
-    motion = (np.linalg.norm(y[:, :3], axis=1), np.linalg.norm(y[:, 3:6], axis=1))
+    motion = (np.linalg.norm(flown[:, :3], axis=1), np.linalg.norm(y[:, 3:6], axis=1))
     passage = model.steps_per_revolution // model.n_blades
     inches = dict(zip(STICKS, run.log.pilot(n, stick).T / INCH, strict=True))
     engine = rotor.over_passage(run.scalars["power"][:n], passage)

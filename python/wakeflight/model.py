@@ -13,7 +13,6 @@ import numpy as np
 from . import _core
 from .aircraft import Aircraft
 from .condition import CompleteCondition, Target
-from .errors import InputError
 from .inflow import Flown, Inflow, InflowModel, RelaxationWake
 from .monitors import Bounds, bounds
 from .results import disk
@@ -237,10 +236,7 @@ def flight_regime(aircraft: Aircraft, condition: CompleteCondition) -> str:
 
 
 def turning_core(model: CompiledRotor, corners: Corners) -> _core.System:
-    """The system of `model` with its rotor at the speed of `corners`. A free wake has none yet."""
-    if not model.inflow.is_dynamic:
-        allowed = f"must be constant with a free wake (inflow = {model.inflow.name}); it needs inflow = dynamic"
-        raise InputError.of("rotor_speed", "a history", allowed)
+    """The system of `model` with its rotor at the speed of `corners`."""
     return model.core.with_rotor_speed([(t, share * model.omega) for t, share in corners])
 
 

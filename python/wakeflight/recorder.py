@@ -18,6 +18,7 @@ from .model import Model
 from .modes import mode_labels
 from .monitors import Monitor, Places, rotor, variables
 from .runlog import MemoryRows, MemoryWakes
+from .wind import passing
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -64,6 +65,7 @@ def fields_of(sim: Simulation) -> dict[str, tuple[int, ...]]:
         **dict.fromkeys(LOADS, (3,)),
         **dict.fromkeys(SCALARS, ()),
         **dict.fromkeys(BLADE_ANGLES, (blades,)),
+        **({} if sim.wind is None else {"wind": (3,)}),
         **ControlLog(sim.chain).fields,
     }
 
@@ -114,7 +116,7 @@ class Recorder:
         self.model, self.start, self.maneuver = sim.model, sim.start, maneuver
         self.exchange, self.phase = sim.exchange, sim.phase
         self.log, self.control = ControlLog(sim.chain), sim.control
-        self.turning = sim.turning.name
+        self.turning, self.wind_told = sim.turning.name, sim.wind_told
         self.n_recorded = n_recorded
         self.keeps_sheets = lattice and keeps_sheets(sim.model, n_steps)
         self._latest = 0
@@ -128,6 +130,7 @@ class Recorder:
         self.time, self.state, self.stick, self.azimuth = (
             arrays[name] for name in ("time", "state", "stick", "azimuth")
         )
+        self.wind = None if self.wind_told is None else arrays["wind"]
         self.blade = {name: arrays[name] for name in STATION_FIELDS}
         self.loads = {name: arrays[name] for name in LOADS}
         self.scalars = {name: arrays[name] for name in SCALARS}
@@ -147,7 +150,11 @@ class Recorder:
         self.azimuth[k] = out["azimuth"]
         for name, values in self.blade.items():
             values[k] = out[name]
-        check_sample(self.model, t, y, stick, self.azimuth[k], self.blade["inflow"][k], self.blade["mach"][k])
+        through_air = y
+        if self.wind is not None:
+            self.wind[k], through_air = at.wind, passing(y, at.wind)
+        sample = self.azimuth[k], self.blade["inflow"][k], self.blade["mach"][k]
+        check_sample(self.model, t, through_air, stick, *sample)
         for name, values in self.loads.items():
             values[k] = out[name]
         for name in ("ct", "beta_1c", "beta_1s"):
@@ -219,6 +226,8 @@ class Recorder:
         arrays |= {name: values[:n] for name, values in self.scalars.items() if name not in SOMETIMES}
         if model.rotor_speed or model.has_free_speed:
             arrays["rotor_speed"] = self.rotor_speed
+        if self.wind is not None:
+            arrays["wind"] = self.wind[:n]
         if model.has_free_speed:
             arrays["torque"] = self.scalars["torque"][:n]
             arrays["power_engine"] = arrays["torque"] * self.rotor_speed
@@ -316,6 +325,7 @@ class Recorder:
             **({"rotor_speed": [list(corner) for corner in model.rotor_speed]} if model.rotor_speed else {}),
             **({} if self.control.nothing else {"control": self.control.described()}),
             **({"rotor_speed": self.turning, "drive": json.loads(model.drive)} if model.drive else {}),
+            **({} if self.wind_told is None else {"wind": self.wind_told}),
             "maneuver": {
                 "name": self.maneuver.name,
                 "adapted": list(self.maneuver.adapted),

@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 
 from .arguments import checked
-from .attitude import euler_angles
+from .attitude import body_to_inertial, euler_angles
 from .control import Augmentation, Chain, Sensors, augmentation
 from .engine import Engine, Turning, turning
 from .errors import InputError, NumericalFailure, known
@@ -36,6 +36,7 @@ from .sticks import STICKS, Ramp, StickPath
 from .trim import INCH, Trim
 from .units import number, quantity
 from .views import html_table
+from .wind import Surroundings, Wind, passing, wind_of
 
 RTOLS = (1e-14, 0.1)
 """Least and largest relative tolerance that can be asked for."""
@@ -77,7 +78,7 @@ class Simulation(Stepping):
     inflow: name or model as for `fly`, by default time-marching from a trim on a free wake, dynamic from a dynamic one; a
     marching wake goes through its convergence phase here. integrator: `fixed`, one step of order five per coupling step, or
     `ida`, variable in step and order. control, actuators: what is between sticks and blades, as for `fly`; None: nothing. rtol,
-    stabilator, rotor_speed: as for `fly`.
+    stabilator, rotor_speed, wind: as for `fly`.
 
     `snapshot()` is everything that what comes depends on; after `restore(snapshot)` the same bits follow, here, in a copy or in
     another process. IDA hides its memory (history, order, step, derivatives): with `ida` a snapshot, and a restoration too,
@@ -101,10 +102,12 @@ class Simulation(Stepping):
         stabilator: str = "held",
         rotor_speed: RotorSpeed | Engine = CONSTANT,
         actuators: Any = None,
+        wind: Any = None,
         progress: Reported = None,
     ):
         turned, made = turning(rotor_speed), augmentation(control, actuators)
-        self._prepare(start, flight_model(start, inflow, turned), integrator, rtol, stabilator, turned, made)
+        model = flight_model(start, inflow, turned)
+        self._prepare(start, model, integrator, rtol, stabilator, turned, made, wind_of(wind))
         self.converge(heard(progress))
 
     @classmethod
@@ -117,11 +120,12 @@ class Simulation(Stepping):
         stabilator: str,
         rotor_speed: RotorSpeed | Engine = CONSTANT,
         control: Augmentation | None = None,
+        wind: Wind | None = None,
     ) -> Simulation:
         """A simulation that has been checked; `converge` must follow."""
         sim = cls.__new__(cls)
         turned, made = turning(rotor_speed), augmentation(control)
-        sim._prepare(start, flight_model(start, inflow, turned), integrator, rtol, stabilator, turned, made)
+        sim._prepare(start, flight_model(start, inflow, turned), integrator, rtol, stabilator, turned, made, wind)
         return sim
 
     seconds_before: dict[str, float]
@@ -147,6 +151,7 @@ class Simulation(Stepping):
         stabilator: str,
         turned: Turning,
         control: Augmentation,
+        wind: Wind | None,
     ) -> None:
         """Everything but the exchange."""
         if integrator not in INTEGRATORS:
@@ -162,7 +167,14 @@ class Simulation(Stepping):
         solver = INTEGRATORS[integrator](model, rtol, atol_scale=rtol / RTOL)
         # the states of a flight may be more than those of its trim
         y = model.core.trim_state(start.problem, start.x, 0.0)[0] if model.has_free_speed else start.state(0.0)
+        self.wind = wind
+        self.wind_told = None if wind is None else wind.described()
+        self._surroundings = None if wind is None else Surroundings(model, wind)
+        if self._surroundings is not None:
+            # the trim's velocity is that through the air; over ground the air carries the aircraft
+            y = passing(y, -self._surroundings.at(0.0, y, 0.0).origin)
         self._begin(model, solver, y, self._asked(None))
+        self._blow()
         self._incidence = start.stabilator_incidence
         self.turning, self.engine = turned, copy.deepcopy(turned.engine)
         if self.engine is not None:
@@ -175,8 +187,21 @@ class Simulation(Stepping):
         speed = float(self._y[self.model.layout["turn"][0] + 1])
         self._engine = known(self.engine).given(self.t, self.delta_t, speed, collective)
 
+    def _blow(self) -> None:
+        """Wind over the step that begins, where the aircraft is at its middle, half a step of azimuth on."""
+        if self._surroundings is None:
+            return
+        half, y = 0.5 * self.delta_t, np.array(self._y)
+        y[10:13] += half * (body_to_inertial(y[6:10]) @ y[:3])
+        azimuth = 2 * np.pi * (self._step + 0.5) / self.model.steps_per_revolution
+        self._air = self._surroundings.at(self.t + half, y, azimuth)
+
     def _turned(self, t: float) -> None:
-        """The clock follows the rotor, the engines it and the stick."""
+        """The clock follows the rotor, the engines it and the stick, the wind where all are."""
+        self._follow_rotor(t)
+        self._blow()
+
+    def _follow_rotor(self, t: float) -> None:
         if self.engine is None:
             return
         azimuth = self.model.layout["turn"][0]
@@ -308,6 +333,7 @@ class Simulation(Stepping):
             self.engine.recall(snapshot.scalars["engine_memory"])
         if self.chain is not None:
             self.chain.recall(snapshot.parts["control"])
+        self._blow()
 
     @cached_property
     def configuration(self) -> dict[str, str]:
@@ -324,12 +350,16 @@ class Simulation(Stepping):
             "stabilator": self.stabilator,
             "rotor speed": self.turning.name,
             "control": json.dumps(self.control.described(), sort_keys=True),
+            "wind": json.dumps(self.wind_told, sort_keys=True),
             "trim": hashlib.sha256(np.asarray(start.x, "<f8").tobytes()).hexdigest()[:16],
         }
 
     def __reduce__(self) -> tuple[Any, ...]:
         """By value: the trim, the configuration and a snapshot."""
-        own = (self.start, self.model, self.integrator, self.rtol, self.stabilator, self.turning, self.control)
+        own = (
+            *(self.start, self.model, self.integrator, self.rtol),
+            *(self.stabilator, self.turning, self.control, self.wind),
+        )
         return _revived, (own, self.phase, self.seconds, self.snapshot())
 
     def _rows(self) -> list[tuple[str, str]]:
@@ -360,7 +390,7 @@ class Simulation(Stepping):
 
 
 def _revived(
-    own: tuple[Trim, Model, str, float, str, Turning, Augmentation],
+    own: tuple[Trim, Model, str, float, str, Turning, Augmentation, Wind | None],
     phase: ConvergencePhase,
     seconds: dict[str, float],
     snapshot: Snapshot,

@@ -14,6 +14,7 @@ from .exchange import Exchange
 from .integrators import Integrator
 from .model import CompiledRotor
 from .sticks import StickPath
+from .wind import Air
 
 
 @dataclass(frozen=True)
@@ -28,6 +29,8 @@ class Instant:
     stick: np.ndarray
     mean_inflow: float
     stabilator: float
+    wind: np.ndarray | None
+    """Velocity of the air at the origin of the body (3,) [m/s], inertial axes; None in still air."""
 
 
 class Observer(Protocol):
@@ -47,6 +50,8 @@ class Stepping:
     stabilator = "held"
     _engine: tuple[float, float] | None = None
     """Torque of the engines [N m] and share of the fuel over the step that begins, where the speed of the rotor is a state."""
+    _air: Air | None = None
+    """Wind over that step; none in still air."""
 
     def _begin(self, model: CompiledRotor, solver: Integrator, y: np.ndarray, stick: np.ndarray, step: int = 0) -> None:
         """At the states `y` after `step` steps; the exchange comes by itself."""
@@ -107,7 +112,7 @@ class Stepping:
         self._stick = path.at(end)
         self._turned(end)
         clock = time.perf_counter()
-        self.exchange.reach(self._step, self._y, self._stick, path.rate(end), flown=(end, t, inputs))
+        self.exchange.reach(self._step, self._y, self._stick, path.rate(end), flown=(end, t, inputs), air=self._air)
         self.seconds["wake"] += time.perf_counter() - clock
 
     def _pieces(self, sticks: StickPath, t0: float, t1: float) -> list[tuple[float, float]]:
@@ -126,20 +131,26 @@ class Stepping:
         stick = sticks.at(t)
         if self.stabilator == "scheduled" and self._step > 0 and not ends:
             follow = self.model.core.followed_incidence
-            self._incidence = follow(self._incidence, self._y, float(stick[2]), self.clock.duration(self._step - 1))
+            moving = self._y if self._air is None else self._air.passing(self._y)
+            self._incidence = follow(self._incidence, moving, float(stick[2]), self.clock.duration(self._step - 1))
         inputs, mean = self._inputs(t, stick, sticks.rate(t))
         clock = time.perf_counter()
         y_dot = self.solver.consistent(t, self._y, inputs)
         self.seconds["dynamics"] += time.perf_counter() - clock
-        return Instant(self._step, t, self._y, y_dot, inputs, stick, mean, self._incidence)
+        wind = None if self._air is None else self._air.origin
+        return Instant(self._step, t, self._y, y_dot, inputs, stick, mean, self._incidence, wind)
 
     def _turned(self, t: float) -> None:
         """The step has ended at `t`: what a rotor has whose speed is a state."""
 
     def _inputs(self, t: float, stick: np.ndarray, rate: np.ndarray) -> tuple[_core.Inputs, float]:
-        """Sticks from `t` on; inflow, memory of the sections, stabilator and engines held."""
+        """Sticks from `t` on; inflow, memory of the sections, stabilator, engines and wind held."""
         held, mean = self.exchange.held(self._step)
+        if self._air is not None:
+            held = self._air.on(held)
         inputs = _core.Inputs(stick, rate, t, held, mean, self._incidence)
         if self._engine is not None:
             inputs = inputs.driven(*self._engine)
+        if self._air is not None:
+            inputs = inputs.blown(*self._air.acting(held is None))
         return self.exchange.remembering(inputs, self.t), mean

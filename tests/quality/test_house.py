@@ -43,6 +43,7 @@ PYTHON_ORDER = (
     {"condition", "inflow", "maneuvers", "wing", "monitors", "snapshot", "rotor_speed"},
     {"aircraft", "thinning", "engine", "stick_samples"},
     {"model", "modes", "airfoil_loop", "file_schemas", "acoustics"},
+    {"wind"},
     {"integrators", "exchange"},
     {"trim", "stepping"},
     {"simulation"},

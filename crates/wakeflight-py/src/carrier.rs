@@ -7,6 +7,7 @@ use wakeflight::blade::hub_motion::HubMotion;
 use wakeflight::blade::kinematics::ModalMotion;
 use wakeflight::blade::memory_rows::MemoryRows;
 use wakeflight::rotor::exchange::Place;
+use wakeflight::rotor::speed::Turning;
 use wakeflight::system::blades::Controls;
 use wakeflight::system::instant::{HeldInflow, Inputs, Instant};
 use wakeflight::trim::host::Host;
@@ -17,6 +18,17 @@ impl PyInputs {
         let (found, needed) = (self.0.inflow.len(), system.inner.rotors.len());
         if found != needed {
             return Err(invalid(format!("inflow of {found} rotors, {needed} needed")));
+        }
+        if let Some(d) = &self.0.disturbance {
+            let (found, rotors) =
+                (d.gust.as_ref().map_or(0, |gust| gust.stations.len()), &system.inner.rotors);
+            let needed = rotors[0].n_blades * rotors[0].blade.stations.len();
+            if found != 0 && found != needed {
+                return Err(invalid(format!("wind at {found} blade stations, {needed} needed")));
+            }
+            if rotors.len() > d.speed.len() {
+                return Err(invalid("wind: for one rotor with blades"));
+            }
         }
         let none = MemoryRows::default();
         for (held, (r, rotor, l)) in self.0.inflow.iter().zip(system.inner.each_rotor()) {
@@ -63,9 +75,10 @@ impl PySystem {
         sized(name, y, self.inner.layout.len())
     }
 
-    /// Rotor and air, with a motion of the hub.
+    /// Rotor and air, with a motion of the hub, at the nominal speed.
     pub fn place<'a>(&'a self, hub: &'a HubMotion<f64>) -> Place<'a> {
-        Place { rotor: self.inner.main(), air: self.inner.air, hub }
+        let rotor = self.inner.main();
+        Place { rotor, air: self.inner.air, hub, turning: Turning::steady(rotor.omega), gust: &[] }
     }
 
     /// Motion of the hub at `y`.
@@ -81,7 +94,11 @@ impl PySystem {
 
     /// Controls and their rates.
     pub fn moving(&self, (stick, rate): &(Row, Row)) -> PyResult<Controls> {
-        Ok(Controls { stick: self.controls("stick", stick)?, rate: self.controls("stick_rate", rate)? })
+        Ok(Controls {
+            stick: self.controls("stick", stick)?,
+            rate: self.controls("stick_rate", rate)?,
+            turning: None,
+        })
     }
 
     /// Motion of blades (rows, n_modes).

@@ -5,9 +5,14 @@ use crate::options::{marching_options, relaxation_options, wake_options};
 use crate::system::{PyInputs, PySystem, SectionMemory, remembered};
 use crate::wake::{RelaxationWake, TimeMarchingWake, py_error};
 use pyo3::prelude::*;
-use wakeflight::rotor::exchange::{Exchange, MarchingExchange, Reached, RelaxationExchange, SteadyWake};
+use wakeflight::rotor::exchange::{
+    Exchange, MarchingExchange, Place, Reached, RelaxationExchange, SteadyWake,
+};
 use wakeflight::system::instant::Instant;
 use wakeflight::wake;
+
+/// Wind at the hub [m/s], inertial axes, and at the stations beyond it as inflow (n_blades, n_stations).
+type WindAtRotor<'py> = ([f64; 3], Option<Table<'py>>);
 
 /// Relaxation wake of a periodic motion with its circulation and inflow; see `wakeflight.trim.wake`.
 #[pyclass(name = "SteadyWake", module = "wakeflight._core")]
@@ -187,8 +192,9 @@ impl PyExchange {
 
     /// States `y` and `sticks`, with their rates, have reached `step`: the air answers. `motion`: modal coordinates and rates
     /// (n_blades, n_modes) that stand for those of `y`. `flown`: end and begin of the step [s] and what acted at its end; a step of
-    /// azimuth at the nominal speed where nothing was flown.
-    #[pyo3(signature = (core, step, y, sticks, motion=None, flown=None))]
+    /// azimuth at the nominal speed where nothing was flown. `wind`: at the hub [m/s], inertial axes, and at the stations beyond it as
+    /// inflow.
+    #[pyo3(signature = (core, step, y, sticks, motion=None, flown=None, wind=None))]
     fn advance(
         &mut self,
         core: &PySystem,
@@ -197,6 +203,7 @@ impl PyExchange {
         sticks: (Row, Row),
         motion: Option<Motion>,
         flown: Option<(f64, f64, PyRef<PyInputs>)>,
+        wind: Option<WindAtRotor>,
     ) -> PyResult<()> {
         if let Exchange::Dynamic(memory) = &mut self.inner {
             if let (Some((t, _, inputs)), false) = (&flown, memory.is_empty()) {
@@ -211,16 +218,26 @@ impl PyExchange {
         if found != self.n_blades {
             return Err(invalid(format!("rotor of {found} blades, exchange of {}", self.n_blades)));
         }
-        let (hub, controls) = (core.hub_at(&y)?, core.moving(&sticks)?);
+        let (mut hub, mut controls) = (core.hub_at(&y)?, core.moving(&sticks)?);
+        let turning = system.turning_after((step, n), core.state("y", &y)?);
+        controls.turning = Some(turning);
         let motions = match &motion {
             Some(given) => core.motions(given, self.n_blades)?,
             None => system.modal_motions(core.state("y", &y)?),
         };
         let blades = &system.blades_after((step, n), &motions, &controls);
         let renewed = self.inner.renews(step);
-        let steady_pitch = &if renewed { system.steady_pitch(n, controls.stick) } else { Vec::new() };
+        let steady_pitch = &if renewed { system.steady_pitch(n, &controls) } else { Vec::new() };
+        let mut gust = Vec::new();
+        if let Some((at_hub, stations)) = wind {
+            hub = system.carrier.hub_in_wind(hub, (system.main(), core.state("y", &y)?), at_hub);
+            if let Some(rows) = stations {
+                gust = map("wind", &rows, found, system.main().blade.stations.len())?;
+            }
+        }
         let elapsed = flown.map_or_else(|| system.main().nominal_step(n), |(end, begun, _)| end - begun);
-        let reached = Reached { place: core.place(&hub), blades, steady_pitch, elapsed };
+        let place = Place { turning, gust: &gust, ..core.place(&hub) };
+        let reached = Reached { place, blades, steady_pitch, elapsed };
         y.py().detach(|| self.inner.advance(step, &reached)).map_err(py_error)
     }
 

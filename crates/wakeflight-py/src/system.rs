@@ -20,7 +20,7 @@ use wakeflight::rotor::swashplate::{PitchHarmonic, Rigging};
 use wakeflight::system::blades::Controls;
 use wakeflight::system::carrier::Stand;
 use wakeflight::system::data::AircraftData;
-use wakeflight::system::instant::{EngineInput, HeldInflow, HeldMemory, Inputs};
+use wakeflight::system::instant::{Disturbance, EngineInput, Gust, HeldInflow, HeldMemory, Inputs};
 use wakeflight::system::model::{Setting, System};
 
 /// Memory of sections that remember, blade by blade, where a coupling step begins; see `wakeflight.exchange`.
@@ -82,11 +82,26 @@ impl PyInputs {
         Self(Inputs { engine: EngineInput { torque, fuel }, ..self.0.clone() })
     }
 
+    /// The same in a wind: at the origin [m/s], inertial axes; where it differs from place to place, at the hub less that, its rates
+    /// about the airframe [rad/s], and what it adds to the inflow at the stations.
+    #[pyo3(signature = (origin, gust=None))]
+    fn blown(&self, origin: [f64; 3], gust: Option<GustRows>) -> Self {
+        let gust = gust.map(|(at_hub, turn, stations)| {
+            let stations = stations.map_or_else(Vec::new, |rows| rows.as_array().iter().copied().collect());
+            Gust { at_hub, turn, stations }
+        });
+        let disturbance = Some(Disturbance { wind: origin, gust, speed: vec![[0.0; 2]] });
+        Self(Inputs { disturbance, ..self.0.clone() })
+    }
+
     /// The same with the memory of sections that remember, from the begin of the coupling step at `begun` [s].
     fn remembering(&self, sections: &SectionMemory, begun: f64) -> Self {
         Self(Inputs { sections: vec![HeldMemory { memory: sections.0.clone(), begun }], ..self.0.clone() })
     }
 }
+
+/// Where a wind is not the same everywhere: at the hub less that at the origin, its rates, rows of inflow by station.
+type GustRows<'py> = ([f64; 3], [f64; 3], Option<Table<'py>>);
 
 /// One of the things that a run records.
 #[derive(IntoPyObject)]

@@ -9,8 +9,9 @@ use wakeflight::blade::hub_motion as blade;
 use wakeflight::blade::kinematics::ModalMotion;
 use wakeflight::blade::memory_rows::MemoryRows;
 use wakeflight::inflow::momentum::momentum_inflow;
-use wakeflight::rotor::circulation::BladeInstant;
+use wakeflight::rotor::circulation::{BladeInstant, Course};
 use wakeflight::rotor::exchange::{MarchingExchange, Place, SteadyWake, azimuth, row};
+use wakeflight::rotor::speed::Turning;
 use wakeflight::system::model::System;
 use wakeflight::wake::{
     BladeState, HubMotion, MarchingOptions, RelaxationOptions, TimeMarchingWake, WakeOptions, WakeRotor,
@@ -64,7 +65,8 @@ impl Relaxed {
         let (blades, hub) = (periodic(&system, n), system.steady_hub(&vec![0.0; system.layout.len()]));
         let map = vec![0.03; n * options.n_stations];
         let mut steady = SteadyWake::new(options, RelaxationOptions::default(), false, system.main(), map);
-        let place = Place { rotor: system.main(), air: system.air, hub: &hub };
+        let turning = Turning::steady(system.main().omega);
+        let place = Place { rotor: system.main(), air: system.air, hub: &hub, turning, gust: &[] };
         steady.converge(&place, &blades, 5).unwrap();
         Self { system, options, blades, hub, steady }
     }
@@ -100,7 +102,7 @@ fn the_sheet_is_carried_by_the_thrust_of_the_blades() {
 fn the_exchange_adds_nothing_to_the_wake_that_stands_alone() {
     let Relaxed { system, options, blades, hub, steady } = Relaxed::new();
     let (rotor, n) = (system.main(), options.steps_per_revolution());
-    let place = Place { rotor, air: system.air, hub: &hub };
+    let place = Place { rotor, air: system.air, hub: &hub, turning: Turning::steady(rotor.omega), gust: &[] };
     let start = steady.wake.as_ref().unwrap();
     let marching = || TimeMarchingWake::from_relaxation(start, 0, MarchingOptions::default()).unwrap();
     let (mut exchange, mut alone) = (MarchingExchange::new(marching(), &steady, rotor), marching());
@@ -112,8 +114,9 @@ fn the_exchange_adds_nothing_to_the_wake_that_stands_alone() {
             (0..rotor.n_blades).map(|b| blades[row(step, b, rotor.n_blades, n)]).collect();
         exchange.advance(&place, &now, rotor.nominal_step(n)).unwrap();
         let solved = |far: &[f64], start: &[f64]| {
+            let course = Course::steady(&hub);
             rotor
-                .circulations(system.air, &options, &hub, (&now, &MemoryRows::default()), far, start)
+                .circulations(system.air, &options, &course, (&now, &MemoryRows::default()), far, start)
                 .unwrap()
                 .gamma
         };

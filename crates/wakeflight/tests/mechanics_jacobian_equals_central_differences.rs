@@ -6,7 +6,7 @@ use mechanics_support::beam_support::uh60a;
 use mechanics_support::*;
 use wakeflight::airfoil::span::SpanSections;
 use wakeflight::airfoil::unsteady::Model;
-use wakeflight::system::instant::{Disturbance, EngineInput, HeldInflow, Inputs};
+use wakeflight::system::instant::{Disturbance, EngineInput, Gust, HeldInflow, Inputs};
 use wakeflight::system::model::System;
 
 const STICK: [f64; 4] = [0.13, 0.14, 0.12, 0.06];
@@ -80,6 +80,9 @@ fn cases(smooth: bool) -> Vec<(System, Inputs, &'static str)> {
     moving.stick_rate = [0.2, -0.1, 0.15, 0.05];
     let failing = Inputs { engine: EngineInput { torque: 0.0, fuel: 0.3 }, ..moving.clone() };
     let pulled = Inputs { engine: EngineInput { torque: 4e4, fuel: 1.0 }, ..moving.clone() };
+    let gust = Gust { at_hub: [0.5, -0.3, 1.2], turn: [0.02, -0.05, 0.01], stations: inflow.clone() };
+    let windy = Disturbance { wind: [6.0, -4.0, 1.5], gust: Some(gust), speed: vec![[0.0; 2]] };
+    let windy = Inputs { disturbance: Some(windy), ..moving.clone() };
     let mut both = moving.clone();
     both.inflow.push(HeldInflow::Dynamic);
     // sections that remember, 17 ms after a step began in another state
@@ -102,6 +105,12 @@ fn cases(smooth: bool) -> Vec<(System, Inputs, &'static str)> {
         (build(&tandem(&data), false, 9.80665), both, "two rotors, the second clockwise"),
         (on_stand(&data, false), moving.clone(), "a stand, dynamic inflow"),
         (changing_speed(dynamic.clone(), 0.8, 0.3), moving.clone(), "rotor speed falling"),
+        (dynamic.clone(), windy.clone(), "a gust"),
+        (
+            driven(dynamic.clone(), true),
+            Inputs { engine: failing.engine, ..windy },
+            "a gust, rotor speed governed",
+        ),
         (driven(dynamic.clone(), true), failing, "rotor speed governed, less fuel"),
         (driven(on_stand(&data, false), false), pulled, "rotor speed free on a stand"),
         (dynamic, moving, "dynamic inflow, sticks moving"),
@@ -184,9 +193,10 @@ fn derivatives_by_what_acts_equal_central_differences() {
                     8 => inputs.stabilator_incidence += h,
                     _ if column >= disturbed => {
                         let speed = vec![[0.0; 2]; aircraft.rotors.len()];
-                        let mut more = Disturbance { wind: [0.0; 3], speed };
+                        let still = Disturbance { wind: [0.0; 3], gust: None, speed };
+                        let mut more = inputs.disturbance.take().unwrap_or(still);
                         match column - disturbed {
-                            k @ 0..3 => more.wind[k] = h,
+                            k @ 0..3 => more.wind[k] += h,
                             3 if driven => inputs.engine.torque += 1e6 * h,
                             4 if driven => inputs.engine.fuel += h,
                             k => more.speed.as_flattened_mut()[k - 3] = h,

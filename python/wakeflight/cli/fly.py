@@ -18,8 +18,9 @@ from .groups import (
     Run,
     Vehicle,
     Wake,
+    WindName,
 )
-from .request import check_flight, request, seconds_between
+from .request import check_flight, request, seconds_between, wind_named
 
 
 def fly(
@@ -32,6 +33,7 @@ def fly(
     wake: Wake,
     integrator: Integrator = "ida",
     rotor_speed: RotorSpeedName = "constant",
+    wind: WindName = None,
     blades: Blades = None,
     control: Control = None,
     checkpoint: Checkpoint = "1 s",
@@ -40,10 +42,11 @@ def fly(
 ) -> None:
     """Trim, fly a manoeuvre, write run.nc, figures and report.html; what is flown is kept as it is flown."""
     check_flight(revolutions, integrator, rotor_speed)
+    blown = wind_named(wind)
     every = seconds_between(checkpoint)
     asked = request(vehicle, given, inflow, wake, run, maneuver, blades, drawing=drawing, control=control)
     print(asked.told(), flush=True)
     from ..progress import Progress
 
     with Progress() as progress:
-        outcome.fly_once(asked, revolutions, integrator, asked.out, progress, every, rotor_speed)
+        outcome.fly_once(asked, revolutions, integrator, asked.out, progress, every, rotor_speed, blown)

@@ -100,6 +100,11 @@ RotorSpeedName = Annotated[
     ),
 ]
 
+WindName = Annotated[
+    str | None,
+    typer.Option("--wind", metavar="TEXT|FILE", help='"10 kt from 270 deg", or a TOML file', show_default="none"),
+]
+
 
 Changes = Annotated[
     list[str] | None,

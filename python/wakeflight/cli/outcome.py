@@ -48,6 +48,7 @@ def fly_once(
     progress: Progress,
     every: float | None = None,
     rotor_speed: str = "constant",
+    wind: Any = None,
 ) -> Any:
     """Trim and fly one request in the folder `out`, draw whatever was flown, raise where the flight did not finish.
 
@@ -69,6 +70,7 @@ def fly_once(
         integrator,
         rotor_speed=rotor_speed,
         control=control,
+        wind=wind,
     )
     given = FlightInput.of(request.aircraft, asked, plan)
     with RunFolder(out, every) as folder:

@@ -160,6 +160,15 @@ def check_flight(revolutions: float | None, integrator: str, rotor_speed: str = 
         raise InputError.choice("--rotor-speed", rotor_speed, ("constant", "governed", "free"))
 
 
+def wind_named(text: str | None) -> Any:
+    """The wind that was typed; none where nothing was."""
+    if text is None:
+        return None
+    from ..wind import wind_from_text
+
+    return wind_from_text(text)
+
+
 def seconds_between(checkpoint: str) -> float:
     """Seconds of wall clock between checkpoints."""
     from ..units import quantity

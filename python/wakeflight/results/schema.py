@@ -108,6 +108,7 @@ RUN: tuple[Variable, ...] = (
         "beta_1s",
     ),
     *_table(("time", "xyz"), "hub_force", "hub_moment"),
+    *_table(("time", "xyz"), "wind", optional=True),
     *_table(("time", "blade", "mode"), "modal"),
     *_table(BLADE, "azimuth"),
     *_table(STATION, "inflow", "circulation", "cl", "cl_m2", "alpha", "mach"),

@@ -181,7 +181,11 @@ def transient(
     """See `Tunnel.transient`."""
     from ..results import assemble_transient
 
-    solution, model = stand.solution, stand.model.at_speed(speed_history(rotor_speed))
+    corners = speed_history(rotor_speed)
+    if corners and not stand.model.inflow.is_dynamic:
+        allowed = f"must be constant on a stand with a free wake (inflow = {stand.model.inflow.name})"
+        raise InputError.of("rotor_speed", "a history", allowed)
+    solution, model = stand.solution, stand.model.at_speed(corners)
     if solution.march is None and not model.inflow.is_dynamic:
         raise InputError.of("inflow", model.inflow.name, "a transient needs inflow time-marching or dynamic")
     if model.aircraft.discretisation.n_modes and not model.n_harmonics:

@@ -313,6 +313,11 @@ impl Blade {
                 let place = carrier.to_hub(m.position);
                 *mean + (*cosine * place.x + *sine * place.y) / self.radius
             }
+            BladeInflow::DiskAnd([mean, sine, cosine], more)
+            | BladeInflow::InTime { inflow: PlainInflow::DiskAnd([mean, sine, cosine], more), .. } => {
+                let place = carrier.to_hub(m.position);
+                *mean + (*cosine * place.x + *sine * place.y) / self.radius + more[j]
+            }
             BladeInflow::Stations(values)
             | BladeInflow::InTime { inflow: PlainInflow::Stations(values), .. } => S::cst(values[j]),
             BladeInflow::Variable(values)

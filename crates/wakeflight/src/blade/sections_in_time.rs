@@ -70,6 +70,8 @@ pub struct SectionsInTime<'a> {
 pub enum PlainInflow<'a, S> {
     /// Constant and first harmonics over the disk.
     Disk([S; 3]),
+    /// The same, and one value per station on top of it.
+    DiskAnd([S; 3], &'a [f64]),
     /// One value per station, held.
     Stations(&'a [f64]),
     /// One value per station, with derivatives.

@@ -23,6 +23,8 @@ pub struct BladeEnvironment<'a> {
 pub enum BladeInflow<'a, S> {
     /// lambda_0 + (lambda_c x_h + lambda_s y_h)/R at the section's place: lambda_0, lambda_s, lambda_c.
     Disk([S; 3]),
+    /// The same, and one value per station on top of it: what the air does of its own.
+    DiskAnd([S; 3], &'a [f64]),
     /// One value per station, held.
     Stations(&'a [f64]),
     /// One value per station, with derivatives.
@@ -61,6 +63,9 @@ impl<'a, S> BladeInflow<'a, S> {
         let Some(sections) = sections else { return self };
         match self {
             Self::Disk(states) => Self::InTime { inflow: PlainInflow::Disk(states), sections },
+            Self::DiskAnd(states, more) => {
+                Self::InTime { inflow: PlainInflow::DiskAnd(states, more), sections }
+            }
             Self::Stations(values) => Self::InTime { inflow: PlainInflow::Stations(values), sections },
             Self::Variable(values) => Self::InTime { inflow: PlainInflow::Variable(values), sections },
             other => other,

@@ -68,6 +68,25 @@ impl<'a> From<&'a BladeInstant> for BladeInTime<'a> {
     }
 }
 
+/// How a rotor moves through the air over a revolution.
+#[derive(Clone, Copy, Debug)]
+pub struct Course {
+    /// Motion of the hub as its blades feel it.
+    pub blades: HubMotion<f64>,
+    /// The same as their near wakes take it: the air that passes over the azimuth they span.
+    pub near: WakeHub,
+    /// Time that a step of azimuth takes over that at the nominal speed.
+    pub pace: f64,
+}
+
+impl Course {
+    /// At the nominal speed.
+    pub fn steady(hub: &HubMotion<f64>) -> Self {
+        let near = WakeHub { velocity: hub.velocity.array(), rates: hub.omega.array() };
+        Self { blades: *hub, near, pace: 1.0 }
+    }
+}
+
 /// Largest difference between the circulation of a section and that of its element, over omega R^2.
 const CIRCULATION_TOLERANCE: f64 = 1e-8;
 
@@ -273,35 +292,41 @@ impl Rotor {
         )
     }
 
-    /// Circulation and near wake of a blade at every azimuth for held far inflow; `lambda_far` and `start` row by row, as the
-    /// memory of sections that remember.
+    /// Circulation and near wake of a blade at every azimuth for held far inflow, of a rotor in motion as `course` says;
+    /// `lambda_far` and `start` row by row, as the memory of sections that remember.
     pub fn circulations(
         &self,
         air: Air,
         options: &WakeOptions,
-        hub: &HubMotion<f64>,
+        course: &Course,
         (instants, memory): (&[BladeInstant], &MemoryRows),
         lambda_far: &[f64],
         start: &[f64],
     ) -> Result<Circulations, WakeError> {
         let n = self.blade.stations.len();
-        let wake_hub = WakeHub { velocity: hub.velocity.array(), rates: hub.omega.array() };
         let by_steps = self.sections.as_ref().is_some_and(|law| law.model.answers_at_once());
         let n_azimuths = instants.len();
+        let step = self.nominal_step(n_azimuths) * course.pace;
         let mut all = Circulations::default();
         for (i, blade) in instants.iter().enumerate() {
             let (flap, lead) = self.equivalent_angles(&blade.modal);
-            let near = self.near_wake(options, &wake_hub, &BladeState { psi: blade.psi, flap, lead })?;
+            let near = self.near_wake(options, &course.near, &BladeState { psi: blade.psi, flap, lead })?;
             let row = i * n..(i + 1) * n;
             let past = if by_steps {
                 // where separation is steep its lag, held, would lead the circulation astray
-                memory.step((i + n_azimuths - 1) % n_azimuths, self.nominal_step(n_azimuths))
+                memory.step((i + n_azimuths - 1) % n_azimuths, step)
             } else {
                 memory.periodic(i)
             };
             let known = BladeInTime { instant: blade, past };
-            let solution =
-                self.blade_circulation(air, hub, known, &lambda_far[row.clone()], &near, &start[row])?;
+            let solution = self.blade_circulation(
+                air,
+                &course.blades,
+                known,
+                &lambda_far[row.clone()],
+                &near,
+                &start[row],
+            )?;
             let solution = self.solved(solution, i, blade.psi)?;
             all.residual = all.residual.max(solution.residual);
             all.followed += usize::from(solution.found_by != Some(Route::Newton));

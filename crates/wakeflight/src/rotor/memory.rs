@@ -43,17 +43,16 @@ impl Rotor {
         kept.map(|(j, flow)| law.model.kept(&self.section(law, j), past.at(j), flow)).collect()
     }
 
-    /// Memory of a blade at every azimuth (n_azimuths,) of a motion that repeats in the inflow given there.
+    /// Memory of a blade at every azimuth (n_azimuths,), `dt` [s] apart, of a motion that repeats in the inflow given there.
     pub fn periodic_memory<'a>(
         &self,
         air: Air,
         hub: &HubMotion<f64>,
-        blades: &[BladeInstant],
+        (blades, dt): (&[BladeInstant], f64),
         inflow: impl Fn(usize) -> BladeInflow<'a, f64>,
     ) -> MemoryRows {
         let Some(law) = &self.sections else { return MemoryRows::default() };
         let (n, n_stations) = (blades.len(), self.blade.stations.len());
-        let dt = self.nominal_step(n);
         let flows: Vec<Vec<Flow<f64>>> =
             blades.iter().enumerate().map(|(k, blade)| self.flows(air, hub, blade, &inflow(k))).collect();
         let of_stations: Vec<Vec<Memory>> = (0..n_stations)

@@ -16,16 +16,29 @@ pub struct Controls {
     pub stick: [f64; 4],
     /// Their rates [m/s, or rad/s].
     pub rate: [f64; 4],
+    /// How the rotor turns; none at its nominal speed.
+    pub turning: Option<Turning>,
 }
 
 impl Controls {
     /// Controls that do not move.
     pub fn held(stick: [f64; 4]) -> Self {
-        Self { stick, rate: [0.0; 4] }
+        Self { stick, ..Self::default() }
     }
 }
 
 impl System {
+    /// How the first rotor turns in the states `y` after `step` steps of azimuth, of which a revolution has `n`; the rate of a speed
+    /// that is a state is left out: no air feels it.
+    pub fn turning_after(&self, (step, n): (usize, usize), y: &[f64]) -> Turning {
+        let rotor = self.main();
+        if let Some(place) = self.layout.main().spin() {
+            return Turning::steady(y[place.speed]);
+        }
+        let reached = |step: usize| rotor.time(std::f64::consts::TAU * step as f64 / n as f64);
+        rotor.turning(reached(step), reached(step.saturating_sub(1)))
+    }
+
     /// Motion of the hub in the states `y`, nothing accelerated.
     pub fn steady_hub(&self, y: &[f64]) -> HubMotion<f64> {
         self.hub_motion(0, y, &vec![0.0; y.len()])
@@ -37,10 +50,10 @@ impl System {
         (0..self.main().n_blades).map(|b| self.modal_motion(0, y, &still, b)).collect()
     }
 
-    /// A blade with this motion at azimuth `psi` [rad] of the rotor at its nominal speed.
+    /// A blade with this motion at azimuth `psi` [rad].
     pub fn blade_at(&self, psi: f64, modal: ModalMotion<f64>, controls: &Controls) -> BladeInstant {
         let rotor = self.main();
-        let turning = Turning::steady(rotor.omega);
+        let turning = controls.turning.unwrap_or(Turning::steady(rotor.omega));
         let control = rotor.blade_pitch(controls.stick, controls.rate, psi, turning).into();
         BladeInstant { psi, modal, control }
     }
@@ -79,10 +92,10 @@ impl System {
         }))
     }
 
-    /// Pitch at each of `n` azimuths of a revolution with the controls held.
-    pub fn steady_pitch(&self, n: usize, stick: [f64; 4]) -> Vec<PitchMotion<f64>> {
+    /// Pitch at each of `n` azimuths of a revolution with the controls held, at a speed that stays.
+    pub fn steady_pitch(&self, n: usize, controls: &Controls) -> Vec<PitchMotion<f64>> {
         let rotor = self.main();
-        let turning = Turning::steady(rotor.omega);
-        (0..n).map(|k| rotor.blade_pitch(stick, [0.0; 4], azimuth(k, n), turning).into()).collect()
+        let turning = Turning::steady(controls.turning.map_or(rotor.omega, |t| t.omega));
+        (0..n).map(|k| rotor.blade_pitch(controls.stick, [0.0; 4], azimuth(k, n), turning).into()).collect()
     }
 }

@@ -44,6 +44,16 @@ impl Carrier {
         })
     }
 
+    /// A motion of the hub of `rotor` against air that moves with `wind` there.
+    pub fn hub_in_wind(
+        &self,
+        hub: HubMotion<f64>,
+        (rotor, y): (&Rotor, &[f64]),
+        wind: [f64; 3],
+    ) -> HubMotion<f64> {
+        HubMotion { velocity: hub.velocity - self.wind_at_hub(rotor, y, wind), ..hub }
+    }
+
     /// Motion of the hub of `rotor` in the states y, with gravity [m/s2] as an acceleration.
     #[inline(always)]
     pub fn hub_motion<S: Real>(&self, rotor: &Rotor, y: &[S], y_dot: &[S], gravity: f64) -> HubMotion<S> {

@@ -57,9 +57,10 @@ fn constant(inputs: &Inputs, n_rotors: usize) -> Inputs<D> {
         }
     });
     let disturbance = match &inputs.disturbance {
-        None => Disturbance { wind: [D::zero(); 3], speed: vec![[D::zero(); 2]; n_rotors] },
+        None => Disturbance { wind: [D::zero(); 3], gust: None, speed: vec![[D::zero(); 2]; n_rotors] },
         Some(d) => {
-            Disturbance { wind: d.wind.map(D::cst), speed: d.speed.iter().map(|s| s.map(D::cst)).collect() }
+            let speed = d.speed.iter().map(|s| s.map(D::cst)).collect();
+            Disturbance { wind: d.wind.map(D::cst), gust: d.gust.clone(), speed }
         }
     };
     Inputs {

@@ -53,12 +53,26 @@ pub enum HeldInflow<U = f64> {
     Vacuum,
 }
 
-/// What derivatives are taken by besides the inputs that are held.
+/// How a wind that is not the same everywhere differs from that at the body's origin; no derivatives are taken by it.
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+pub struct Gust {
+    /// Wind at the hub of the first rotor less that at the origin [m/s], inertial axes.
+    pub at_hub: [f64; 3],
+    /// Rates at which the air turns about the airframe, body axes [rad/s]: what its gradients are to tail and fin.
+    pub turn: [f64; 3],
+    /// Wind along the shaft at the blade stations of the first rotor less that at its hub, as inflow, positive down, over the tip speed
+    /// (n_blades, n_stations); empty where the wind is the same over the disk, or where it is in the inflow held.
+    pub stations: Vec<f64>,
+}
+
+/// Air that moves, and speeds of the rotors that derivatives are taken by.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct Disturbance<U = f64> {
     /// Velocity of the air [m/s], the same everywhere and always: inertial axes (north, east, down) of an airframe, hub axes of a
     /// stand.
     pub wind: [U; 3],
+    /// How it differs from place to place; none where it does not.
+    pub gust: Option<Gust>,
     /// What every rotor with blades turns faster than its own speed has it [rad/s], and the rate of that [rad/s2].
     pub speed: Vec<[U; 2]>,
 }
@@ -105,8 +119,7 @@ pub struct Inputs<U = f64> {
     pub stabilator_incidence: U,
     /// What the engines of a rotor whose speed is a state are given.
     pub engine: EngineInput<U>,
-    /// Wind and excess speed of the rotors at the azimuths they have; none in flight: F has their derivatives, dF/dy does not know
-    /// them.
+    /// Wind, and excess speed of the rotors at the azimuths they have, which is none in flight; none in still air.
     pub disturbance: Option<Disturbance<U>>,
 }
 
@@ -115,6 +128,12 @@ impl<U: Real> Inputs<U> {
     #[inline(always)]
     pub fn stick_at(&self, t: f64) -> [U; 4] {
         std::array::from_fn(|i| self.stick[i] + self.stick_rate[i] * (t - self.t_start))
+    }
+
+    /// Row of blade `b` of rotor `r` of what a gust adds to the inflow in its states, of which there are `n`.
+    pub(super) fn gust_row(&self, r: usize, b: usize, n: usize) -> Option<&[f64]> {
+        let gust = self.disturbance.as_ref()?.gust.as_ref()?;
+        if r > 0 { None } else { gust.stations.get(b * n..(b + 1) * n) }
     }
 
     /// Whether there is no air at all.

@@ -36,8 +36,8 @@ pub struct Settings<'a, S> {
     pub closed_inflow: &'a [S],
     /// Their speed over the nominal one: they are geared to the first rotor.
     pub closed_speed: S,
-    /// Velocity of the air, body axes [m/s]; none where it is still.
-    pub wind: Option<Vec3<S, Body>>,
+    /// Velocity of the air at the origin, body axes [m/s], and the rates at which it turns about it [rad/s]; none where it is still.
+    pub wind: Option<[Vec3<S, Body>; 2]>,
 }
 
 impl<S: Real> AirframeLoads<S> {
@@ -99,7 +99,10 @@ impl System {
             closed_pitch: pitch[3],
             closed_inflow: &at.y[self.layout.closed_inflow()],
             closed_speed: self.speed_ratio(0, at),
-            wind: at.inputs.disturbance.as_ref().map(|d| wind_b(at.y, d.wind.map(Acting::felt))),
+            wind: at.inputs.disturbance.as_ref().map(|d| {
+                let turn = d.gust.as_ref().map_or([0.0; 3], |gust| gust.turn);
+                [wind_b(at.y, d.wind.map(Acting::felt)), Vec3::cst(turn)]
+            }),
         };
         self.loads_on_airframe(airframe, at.y, shares, &settings).turned_by(self.hub_reaction(at))
     }
@@ -113,9 +116,10 @@ impl System {
         settings: &Settings<S>,
     ) -> AirframeLoads<S> {
         let mut velocity = body_vector(y, Layout::VELOCITY);
-        let rates = body_vector(y, Layout::RATES);
-        if let Some(wind) = settings.wind {
+        let mut rates = body_vector(y, Layout::RATES);
+        if let Some([wind, turn]) = settings.wind {
             velocity = velocity - wind;
+            rates = rates - turn;
         }
         let rotor = self.main();
         let effect = RotorEffect {

@@ -62,8 +62,7 @@ pub struct RotorShare<S> {
 }
 
 impl System {
-    /// Where rotor `r` is in its turn: read here and nowhere else, of the state where azimuth and speed are states, else of
-    /// the time.
+    /// Where rotor `r` is in its turn: read here and nowhere else, of the state where azimuth and speed are states, else of the time.
     #[inline(always)]
     pub fn spin<S: Real, U: Acting<S>>(&self, r: usize, at: &Instant<S, U>) -> Spin<S> {
         match self.layout.rotors[r].spin() {
@@ -124,7 +123,11 @@ impl System {
     ) -> HubMotion<S> {
         let rotor = &self.rotors[r];
         if let Some(disturbance) = &inputs.disturbance {
-            let wind = self.carrier.wind_at_hub(rotor, y, disturbance.wind.map(Acting::felt));
+            let mut wind: [S; 3] = disturbance.wind.map(Acting::felt);
+            if let (0, Some(gust)) = (r, &disturbance.gust) {
+                wind = std::array::from_fn(|i| wind[i] + gust.at_hub[i]);
+            }
+            let wind = self.carrier.wind_at_hub(rotor, y, wind);
             hub.velocity = hub.velocity - wind;
         } else if matches!(rotor.speed, RotorSpeed::Constant) {
             return hub;
@@ -195,7 +198,7 @@ impl System {
         let inflow = match &inputs.inflow[r] {
             HeldInflow::Dynamic => {
                 let i = self.layout.rotors[r].inflow().start;
-                BladeInflow::Disk([y[i], y[i + 1], y[i + 2]])
+                self.disk_inflow(r, [y[i], y[i + 1], y[i + 2]], inputs, b)
             }
             HeldInflow::Stations { inflow, .. } => {
                 let width = inflow.len() / self.rotors[r].n_blades;
@@ -204,6 +207,21 @@ impl System {
             HeldInflow::Vacuum => BladeInflow::Vacuum,
         };
         inflow.remembering(self.sections_in_time(r, t, inputs, b))
+    }
+
+    /// Inflow of blade `b` of rotor `r` by its states, and by a gust.
+    #[inline(always)]
+    pub(super) fn disk_inflow<'a, S: Real, U: Acting<S>>(
+        &self,
+        r: usize,
+        states: [S; 3],
+        inputs: &'a Inputs<U>,
+        b: usize,
+    ) -> BladeInflow<'a, S> {
+        match inputs.gust_row(r, b, self.rotors[r].blade.stations.len()) {
+            Some(row) => BladeInflow::DiskAnd(states, row),
+            None => BladeInflow::Disk(states),
+        }
     }
 
     /// Loads of blade `b` of rotor `r`.

@@ -136,7 +136,8 @@ impl<'a, H: Host> Trim<'a, H> {
                 BladeInstant { psi, modal: self.motion(x, psi), control }
             })
             .collect();
-        rotor.periodic_memory(self.host.air(), &hub, &blades, |l| self.inflow(&head, l))
+        let known = (&blades[..], rotor.nominal_step(n));
+        rotor.periodic_memory(self.host.air(), &hub, known, |l| self.inflow(&head, l))
     }
 
     /// Held inflow at azimuth `l`.

@@ -90,6 +90,15 @@ pub(crate) fn finite(field: &'static str, values: &[f64]) -> Result<(), WakeErro
     }
 }
 
+/// Time of a step over that at the nominal speed of the rotor, checked.
+pub(crate) fn checked_pace(pace: f64) -> Result<f64, WakeError> {
+    if pace.is_finite() && pace > 0.0 {
+        return Ok(pace);
+    }
+    let allowed = "must be finite and above 0".into();
+    Err(WakeError::InvalidOption { field: "pace", value: pace.to_string(), allowed })
+}
+
 /// Checks the length of an array.
 pub(crate) fn length(field: &'static str, found: usize, expected: usize) -> Result<(), WakeError> {
     if found == expected { Ok(()) } else { Err(WakeError::Shape { field, expected, found }) }

@@ -81,17 +81,17 @@ pub fn aged_cores(options: &WakeOptions, release: f64) -> impl Iterator<Item = f
 
 /// Square of the core radius one step later [m2]: growth, then thinning at constant volume of vorticity.
 ///
-/// `release`: radius at release over R. r_c^2 <- (r_c^2 + G R^2 delta_psi) l_old / l_new; the ratio of lengths is limited to 0.5 ... 2 in a step,
+/// `release`: radius at release over R; `pace`: time of the step over that at the nominal speed. r_c^2 <- (r_c^2 + G R^2 delta_psi) l_old / l_new; the ratio of lengths is limited to 0.5 ... 2 in a step,
 /// the radius to 0.1 r_c0 ... 0.5 R.
 pub fn stretched_core_squared(
     options: &WakeOptions,
     release: f64,
     core_squared: f64,
-    length_old: f64,
-    length_new: f64,
+    [length_old, length_new]: [f64; 2],
+    pace: f64,
 ) -> f64 {
     let r2 = options.rotor.radius * options.rotor.radius;
-    let grown = core_squared + options.core_growth * r2 * options.delta_psi();
+    let grown = core_squared + options.core_growth * r2 * options.delta_psi() * pace;
     let ratio = if length_new > 0.0 { (length_old / length_new).clamp(0.5, 2.0) } else { 2.0 };
     let least = 0.01 * release * release * r2;
     (grown * ratio).clamp(least, (0.25 * r2).max(least))
@@ -132,11 +132,12 @@ mod tests {
         let mut options = WakeOptions::new(4, 8.0, 1.0, 0.4, 0.5, 27.0);
         options.core_growth = 0.0;
         let (old, strain) = (0.04, 0.3);
-        let new = stretched_core_squared(&options, options.core_radius, old, 1.0, 1.0 + strain);
+        let new = stretched_core_squared(&options, options.core_radius, old, [1.0, 1.0 + strain], 1.0);
         assert!((new.sqrt() - old.sqrt() / (1.0 + strain).sqrt()).abs() < 1e-15);
         // a segment ten times as long in one step is thinned by the limit only
         assert!(
-            (stretched_core_squared(&options, options.core_radius, old, 1.0, 10.0) - 0.5 * old).abs() < 1e-15
+            (stretched_core_squared(&options, options.core_radius, old, [1.0, 10.0], 1.0) - 0.5 * old).abs()
+                < 1e-15
         );
     }
 }

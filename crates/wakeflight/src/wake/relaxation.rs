@@ -1,6 +1,6 @@
 //! Periodic wake of a steady flight condition by pseudo-implicit predictor-corrector relaxation [bagai1995].
 
-use super::error::{WakeError, finite, length};
+use super::error::{WakeError, checked_pace, finite, length};
 use super::filament::{aged_cores, distance, stretched_core_squared};
 use super::geometry::{BladeGrid, release_points};
 use super::inboard_sheet;
@@ -37,6 +37,10 @@ pub struct RelaxationWake<F: InducedVelocity = Induction> {
     pub(crate) options: WakeOptions,
     /// Share of a new geometry taken in a sweep.
     relaxation: f64,
+    /// Time that a step of azimuth takes over that at the nominal speed.
+    pace: f64,
+    /// Whether it has been another.
+    uneven: bool,
     pub(crate) grid: BladeGrid,
     pub(crate) field: F,
     pub(crate) hub: HubMotion,
@@ -108,11 +112,20 @@ impl<F: InducedVelocity> RelaxationWake<F> {
             evaluations: 0,
             work: FieldWork::default(),
             relaxation: own.relaxation,
+            pace: 1.0,
+            uneven: false,
             options,
         };
         wake.place(&vec![(0.0, 0.0); n_psi]);
         wake.restart();
         Ok(wake)
+    }
+
+    /// Time that a step of azimuth takes over that at the nominal speed of the rotor: frozen over the revolution.
+    pub fn set_pace(&mut self, pace: f64) -> Result<(), WakeError> {
+        self.pace = checked_pace(pace)?;
+        self.uneven |= pace != 1.0;
+        Ok(())
     }
 
     /// New flight condition: hub motion, flap and lead of the blade at every azimuth [rad], and its bound circulation
@@ -317,6 +330,12 @@ impl<F: InducedVelocity> RelaxationWake<F> {
         let (n_k, n_t) = (self.options.n_segments(), self.options.trailers_per_blade());
         let mut cores = self.core_squared.clone();
         if !self.options.core_stretching {
+            if self.uneven {
+                let options =
+                    WakeOptions { core_growth: self.options.core_growth * self.pace, ..self.options };
+                let aged = |t: usize| aged_cores(&options, options.release_core(t));
+                cores = (0..n_t).flat_map(aged).collect::<Vec<_>>().repeat(options.steps_per_revolution());
+            }
             return cores;
         }
         let span = |l: usize, t: usize, k: usize| {
@@ -330,8 +349,8 @@ impl<F: InducedVelocity> RelaxationWake<F> {
                         &self.options,
                         self.options.release_core(t),
                         cores[(past * n_t + t) * n_k + k - 1],
-                        span(past, t, k - 1),
-                        span(l, t, k),
+                        [span(past, t, k - 1), span(l, t, k)],
+                        self.pace,
                     );
                 }
             }
@@ -366,7 +385,7 @@ impl<F: InducedVelocity> RelaxationWake<F> {
                     let m = instant.free.marker(blade * n_t + t, k);
                     instant.free.circulation[m] = self.released[born * n_t + t];
                 }
-                let age = k as f64 * options.delta_psi() / options.rotor.omega;
+                let age = k as f64 * options.delta_psi() / options.rotor.omega * self.pace;
                 for s in 0..n_sheet {
                     let m = instant.sheet.marker(blade * n_sheet + s, k);
                     instant.sheet.position[m] =

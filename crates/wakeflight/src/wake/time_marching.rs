@@ -1,7 +1,7 @@
 //! Time-accurate wake: the free filaments advance with the blades, step by step [bhagwat2001].
 
 use super::choices::{Evaluation, Form, Predictor, Scheme};
-use super::error::{WakeError, finite, length};
+use super::error::{WakeError, checked_pace, finite, length};
 use super::geometry::BladeGrid;
 use super::instant::RotorInstant;
 use super::motion::{BladeState, HubMotion};
@@ -50,6 +50,10 @@ pub struct TimeMarchingWake<F: InducedVelocity = Induction> {
     /// Velocity of the markers at the present level [m/s], where it is known.
     velocity: Vec<[f64; 3]>,
     velocity_is_known: bool,
+    /// Time that the step takes over that of a step at the nominal speed.
+    pace: f64,
+    /// Whether a step has taken another time.
+    uneven: bool,
     #[serde(skip)]
     work: Work,
 }
@@ -121,10 +125,20 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
             evaluations: 0,
             velocity: Vec::new(),
             velocity_is_known: false,
+            pace: 1.0,
+            uneven: false,
             work: Work::default(),
             options,
             own,
         })
+    }
+
+    /// Time that the steps to come take over that of a step at the nominal speed of the rotor: V/omega with the omega there is,
+    /// at the new level, and cores that grow by the time that passes.
+    pub fn set_pace(&mut self, pace: f64) -> Result<(), WakeError> {
+        self.pace = checked_pace(pace)?;
+        self.uneven |= pace != 1.0;
+        Ok(())
     }
 
     /// Advances by one step of azimuth to the given hub motion, blades (n_blades) and bound circulation
@@ -154,7 +168,7 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
         let Work { field, next, carrier, unknown, at_new } = work;
         let (options, own, velocity) = (&self.options, self.own, &self.velocity);
 
-        let step = options.delta_psi() / options.rotor.omega;
+        let step = options.delta_psi() / options.rotor.omega * self.pace;
         let old = |i: usize| [velocity[i], velocity[i + 1]];
 
         // predictor: both ends of the segment at the old level

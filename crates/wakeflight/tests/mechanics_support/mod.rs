@@ -316,7 +316,7 @@ pub fn remembering(system: &System, inputs: &Inputs, begun: f64, random: &mut Ra
                 let blade = BladeInstant { psi, modal: system.modal_motion(r, &y, &y_dot, b), control };
                 let inflow = |_| system.blade_inflow(r, (begun, &y[..]), inputs, b);
                 // a turn of one azimuth stays where it is
-                rotor.periodic_memory(system.air, &hub, &[blade], inflow)
+                rotor.periodic_memory(system.air, &hub, (&[blade], rotor.nominal_step(1)), inflow)
             })
             .collect();
         HeldMemory { memory: MemoryRows::joined(rows.iter()), begun }

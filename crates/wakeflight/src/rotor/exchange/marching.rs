@@ -37,7 +37,7 @@ impl Place<'_> {
         near: &NearWake,
         start: &[f64],
     ) -> Result<CirculationSolution, WakeError> {
-        let solution = self.rotor.blade_circulation(self.air, self.hub, blade, far, near, start)?;
+        let solution = self.rotor.blade_circulation(self.air, &self.blade_hub(), blade, far, near, start)?;
         self.rotor.solved(solution, b, blade.instant.psi)
     }
 }
@@ -150,7 +150,8 @@ impl MarchingExchange {
         if self.wake.options().inboard_wake == InboardWake::Sheet {
             self.wake.set_mean_inflow(self.disk.carrying_inflow(&self.passed_circulation, hub.velocity))?;
         }
-        self.place(at.rotor, blades, &hub)?;
+        self.wake.set_pace(at.pace())?;
+        self.place(at.rotor, blades, &at.near_hub())?;
         let mut followed = self.solve(at, true)?;
         let step = self.wake.step(hub, &self.states, &self.circulation)?;
         self.renew_far(self.wake.own().recorrect == 0);
@@ -265,6 +266,10 @@ impl MarchingExchange {
     /// Circulation and total inflow of every blade; `ahead`: with the far inflow carried on to the present azimuth.
     fn solve(&mut self, at: &Place, ahead: bool) -> Result<usize, WakeError> {
         self.far_ahead(if ahead { 1.0 } else { 0.0 });
+        // the sections feel a gust as they feel inflow; what is kept is induced
+        for (held, gust) in self.far_held.iter_mut().zip(at.gust) {
+            *held += gust;
+        }
         let n = self.wake.options().n_stations;
         let mut outcomes: Vec<Result<bool, WakeError>> = vec![Ok(true); self.blades.len()];
         let (memory, elapsed) = (&self.memory, self.elapsed);
@@ -279,22 +284,27 @@ impl MarchingExchange {
                 solution.found_by == Some(Route::Newton)
             });
         });
+        take_off(&mut self.inflow, at.gust, (width, n));
         self.unsolved += outcomes.iter().filter(|o| matches!(o, Err(WakeError::Circulation { .. }))).count();
         outcomes.into_iter().try_fold(0, |followed, outcome| Ok(followed + usize::from(!outcome?)))
     }
 
     /// Memory of the sections in the inflow found for the present, in which the next step begins.
     fn kept(&self, at: &Place) -> MemoryRows {
+        let hub = at.blade_hub();
         let rows = self.blades.iter().zip(self.inflow.chunks(at.rotor.inflow_width())).enumerate();
         MemoryRows::of(rows.map(|(b, (blade, row))| {
             let past = self.memory.step(b, self.elapsed);
-            at.rotor.kept(at.air, at.hub, blade, &at.rotor.held_inflow(row), past)
+            at.rotor.kept(at.air, &hub, blade, &at.rotor.held_inflow(row), past)
         }))
     }
 
     /// Total inflow half a step ahead; circulation of the wake stays that of the present.
     fn hold_extrapolated(&mut self, at: &Place) -> Result<(), WakeError> {
         self.far_ahead(0.5);
+        for (held, gust) in self.far_held.iter_mut().zip(at.gust) {
+            *held += gust;
+        }
         let (n, width) = (self.wake.options().n_stations, at.rotor.inflow_width());
         for (b, (instant, near)) in self.blades.iter().zip(&self.near_wakes).enumerate() {
             let span = b * n..(b + 1) * n;
@@ -303,7 +313,15 @@ impl MarchingExchange {
                 at.solved(b, blade, &self.far_held[span.clone()], near, &self.circulation[span])?;
             self.inflow[b * width..(b + 1) * width].copy_from_slice(&solution.inflow);
         }
+        take_off(&mut self.inflow, at.gust, (width, n));
         Ok(())
+    }
+}
+
+/// Takes a gust (n_blades, n) off rows of inflow of `width`, of thin sections at both lines of the chord.
+fn take_off(inflow: &mut [f64], gust: &[f64], (width, n): (usize, usize)) {
+    for (row, gust) in inflow.chunks_exact_mut(width).zip(gust.chunks_exact(n)) {
+        row.iter_mut().zip(gust.iter().cycle()).for_each(|(v, g)| *v -= g);
     }
 }
 

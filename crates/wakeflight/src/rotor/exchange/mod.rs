@@ -12,9 +12,9 @@ pub use marching::{ExchangeReport, MarchingExchange};
 pub use relaxation::RelaxationExchange;
 pub use steady::{Changes, Iteration, SteadyWake};
 
-use super::circulation::BladeInstant;
+use super::circulation::{BladeInstant, Course};
 use super::hub::Rotor;
-use super::speed::RotorSpeed;
+use super::speed::Turning;
 use crate::blade::aerodynamics::Air;
 use crate::blade::hub_motion::HubMotion;
 use crate::blade::kinematics::PitchMotion;
@@ -33,12 +33,40 @@ pub struct Place<'a> {
     pub air: Air,
     /// Motion of the hub.
     pub hub: &'a HubMotion<f64>,
+    /// How the rotor turns.
+    pub turning: Turning,
+    /// What the air does of its own at the stations, as inflow (n_blades, n_stations); empty where it does nothing.
+    pub gust: &'a [f64],
 }
 
 impl Place<'_> {
     /// Motion of the hub as the wake takes it.
     pub(crate) fn wake_hub(&self) -> WakeHub {
         WakeHub { velocity: self.hub.velocity.array(), rates: self.hub.omega.array() }
+    }
+
+    /// Time that a step of azimuth takes, over that at the nominal speed.
+    pub(crate) fn pace(&self) -> f64 {
+        self.rotor.omega / self.turning.omega
+    }
+
+    /// Motion of the hub as near wakes take it: over the azimuth they span the air passes by the time it takes.
+    pub(crate) fn near_hub(&self) -> WakeHub {
+        let hub = self.wake_hub();
+        WakeHub { velocity: hub.velocity.map(|v| v * self.pace()), ..hub }
+    }
+
+    /// Motion of the hub as blades that turn at the nominal speed feel it.
+    pub(crate) fn blade_hub(&self) -> HubMotion<f64> {
+        if self.turning == Turning::steady(self.rotor.omega) {
+            return *self.hub;
+        }
+        self.turning.carried_by(*self.hub, self.rotor.omega)
+    }
+
+    /// All of it.
+    pub(crate) fn course(&self) -> Course {
+        Course { blades: self.blade_hub(), near: self.near_hub(), pace: self.pace() }
     }
 }
 
@@ -103,15 +131,8 @@ impl Exchange {
         matches!(self, Self::Relaxation(wake) if wake.renews(step))
     }
 
-    /// The flight has reached `step`: the air answers. Wakes go by equal steps of time: they refuse a rotor whose speed changes.
+    /// The flight has reached `step`: the air answers. Steps are of azimuth, whatever the rotor's speed.
     pub fn advance(&mut self, step: usize, reached: &Reached) -> Result<(), WakeError> {
-        if !matches!(self, Self::Dynamic(_)) && reached.place.rotor.speed != RotorSpeed::Constant {
-            return Err(WakeError::InvalidOption {
-                field: "rotor_speed",
-                value: "a history".into(),
-                allowed: "must be constant with a free wake".into(),
-            });
-        }
         match self {
             Self::Dynamic(_) => Ok(()),
             Self::Relaxation(wake) => wake.advance(step, reached),

@@ -94,10 +94,10 @@ impl RelaxationExchange {
     /// Memory of the sections in the inflow of the map, in which the next step begins.
     fn kept(&self, step: usize, reached: &Reached) -> MemoryRows {
         let Reached { place, blades, elapsed, .. } = reached;
-        let (rotor, width) = (place.rotor, self.steady.width());
+        let (rotor, width, hub) = (place.rotor, self.steady.width(), place.blade_hub());
         MemoryRows::of(self.rows(step).zip(*blades).enumerate().map(|(b, (k, blade))| {
             let inflow = rotor.held_inflow(&self.steady.inflow[k * width..(k + 1) * width]);
-            rotor.kept(place.air, place.hub, blade, &inflow, self.memory.step(b, *elapsed))
+            rotor.kept(place.air, &hub, blade, &inflow, self.memory.step(b, *elapsed))
         }))
     }
 

@@ -225,6 +225,7 @@ impl SteadyWake {
         let Some(wake) = self.wake.as_mut() else {
             return Ok((vec![0.0; self.lambda_far.len()], 0.0, 0.0));
         };
+        wake.set_pace(place.pace())?;
         wake.set_state(hub, angles, &self.circulation)?;
         wake.set_mean_inflow(carrying)?;
         let norms = wake.sweep(self.own.sweeps)?;
@@ -264,9 +265,10 @@ impl SteadyWake {
         let n = self.disk.stations.len();
         let mut slope = vec![0.0; n];
         let rows = self.lambda_far.chunks_exact(n).zip(self.circulation.chunks_exact_mut(n));
+        let hub = place.blade_hub();
         for (k, (instant, (lambda, circulation))) in blades.iter().zip(rows).enumerate() {
             let blade = BladeInTime { instant, past: self.memory.periodic(k) };
-            place.rotor.section_circulation(place.air, place.hub, blade, lambda, circulation, &mut slope);
+            place.rotor.section_circulation(place.air, &hub, blade, lambda, circulation, &mut slope);
         }
         self.inflow.clone_from(&self.lambda_far);
     }
@@ -275,7 +277,7 @@ impl SteadyWake {
     fn solve(&mut self, place: &Place, blades: &[BladeInstant]) -> Result<(), WakeError> {
         let (far, start) = (&self.lambda_far, &self.circulation);
         let known = (blades, &self.memory);
-        let all = place.rotor.circulations(place.air, &self.options, place.hub, known, far, start)?;
+        let all = place.rotor.circulations(place.air, &self.options, &place.course(), known, far, start)?;
         (self.circulation, self.inflow) = (all.gamma, all.inflow);
         self.followed += all.followed as u64;
         self.remember(place, blades);
@@ -286,7 +288,8 @@ impl SteadyWake {
     fn remember(&mut self, place: &Place, blades: &[BladeInstant]) {
         let (rotor, width) = (place.rotor, self.width());
         let row = |k: usize| rotor.held_inflow(&self.inflow[k * width..(k + 1) * width]);
-        self.memory = rotor.periodic_memory(place.air, place.hub, blades, row);
+        let step = rotor.nominal_step(blades.len()) * place.pace();
+        self.memory = rotor.periodic_memory(place.air, &place.blade_hub(), (blades, step), row);
     }
 }
 

@@ -4,7 +4,6 @@ use super::{BladeSlopes, N_LOADS};
 use crate::blade::MAX_MODES;
 use crate::blade::hub_loads::BladeLoads;
 use crate::blade::kinematics::ModalMotion;
-use crate::blade::surroundings::BladeInflow;
 use crate::numerics::frames::Vec3;
 use crate::numerics::wide::{DIRECTIONS, Directional, Task, differentiate};
 use crate::rotor::hub::DamperSlopes;
@@ -13,8 +12,8 @@ use crate::system::instant::{HeldInflow, Instant};
 use crate::system::layout::Layout;
 use crate::system::model::System;
 
-/// Own coordinates and rates, carrier velocity and rates, inflow, azimuth and speed.
-const MOST_DIRECTIONS: usize = 2 * MAX_MODES + 11;
+/// Own coordinates and rates, carrier velocity and rates, inflow, azimuth and speed, attitude.
+const MOST_DIRECTIONS: usize = 2 * MAX_MODES + 15;
 
 /// Derivatives of a blade's modal rows and loads on the hub, direction by direction.
 struct LoadSlopes {
@@ -63,8 +62,12 @@ impl Task for BladePass<'_> {
             modal.q_dot[i] = S::cst(at.y[own + m + i]);
             modal.q_ddot[i] = S::cst(at.y_dot[own + m + i]);
         }
+        // the attitude turns a wind; what it does by the weight comes with the masses
+        let mut air = carrier;
         for (lane, &i) in self.directions.iter().enumerate() {
-            let number = if turn.contains(&i) {
+            let number = if layout.attitude().contains(&i) {
+                &mut air[i]
+            } else if turn.contains(&i) {
                 &mut turned[i - turn.start]
             } else if layout.carrier().contains(&i) {
                 &mut carrier[i]
@@ -85,13 +88,13 @@ impl Task for BladePass<'_> {
             None => system.spin(r, at).constant(),
         };
         let hub = system.hub_motion(r, &carrier, &carrier_dot);
-        let hub = system.felt_hub(r, &carrier, at.inputs, (hub, &spin.turning));
+        let hub = system.felt_hub(r, &air, at.inputs, (hub, &spin.turning));
         let psi = system.rotors[r].azimuth(spin.psi, self.b);
         let control = system.blade_pitch(r, at.inputs, (at.t, &spin), self.b);
         let inflow = match at.inputs.inflow[r] {
-            HeldInflow::Dynamic => {
-                BladeInflow::Disk(disk).remembering(system.sections_in_time(r, at.t, at.inputs, self.b))
-            }
+            HeldInflow::Dynamic => system
+                .disk_inflow(r, disk, at.inputs, self.b)
+                .remembering(system.sections_in_time(r, at.t, at.inputs, self.b)),
             _ => system.blade_inflow(r, (at.t, &[]), at.inputs, self.b),
         };
         let loads = system.rotors[r].undamped_loads(system.air, &hub, psi, &modal, &control, &inflow);
@@ -118,13 +121,20 @@ impl BladeSlopes {
     }
 
     /// Keeps the derivatives of the modal rows and loads along `directions`; `place` finds shared states.
-    fn keep(&mut self, directions: &[usize], place: &[usize], table: &LoadSlopes) {
+    fn keep(&mut self, directions: &[usize], layout: &Layout, place: &[usize], table: &LoadSlopes) {
         let (m, own) = (self.n_modes(), self.modal.start);
         for (lane, &i) in directions.iter().enumerate() {
             let is_own = (own..own + 2 * m).contains(&i);
-            let column = if is_own { i - own } else { place[i] };
+            let (attitude, by_wind) = (layout.attitude(), layout.attitude().contains(&i));
+            let column = match (is_own, by_wind) {
+                (true, _) => i - own,
+                (_, true) => i - attitude.start,
+                _ => place[i],
+            };
             let (rows, sums) = if is_own {
                 (&mut self.undamped, &mut self.loads)
+            } else if by_wind {
+                (&mut self.by_wind, &mut self.loads_by_wind)
             } else {
                 (&mut self.by_shared, &mut self.loads_by_shared)
             };
@@ -151,22 +161,23 @@ impl System {
             LoadSlopes { modal: [[0.0; DIRECTIONS]; MAX_MODES], loads: [[0.0; DIRECTIONS]; N_LOADS] };
         let mut loads = BladeLoads::zero();
         let r = slopes.rotor;
-        let (all, n) = directions(&self.layout, r, b);
+        let (all, n) = directions(&self.layout, (r, b), at.inputs.disturbance.is_some());
         for directions in all[..n].chunks(DIRECTIONS) {
             loads = differentiate(BladePass { system: self, at, r, b, directions, table: &mut table });
-            slopes.keep(directions, place, &table);
+            slopes.keep(directions, &self.layout, place, &table);
         }
         loads
     }
 }
 
 /// Entries of y along which a blade is differentiated: its own coordinates and rates, the carrier's motion, the inflow, azimuth and
-/// speed.
-fn directions(layout: &Layout, r: usize, b: usize) -> ([usize; MOST_DIRECTIONS], usize) {
+/// speed, and where there is wind the attitude that turns it.
+fn directions(layout: &Layout, (r, b): (usize, usize), windy: bool) -> ([usize; MOST_DIRECTIONS], usize) {
     let l = &layout.rotors[r];
     let mut all = [0; MOST_DIRECTIONS];
     let mut n = 0;
-    let shared = layout.carrier_motion().chain(l.inflow()).chain(l.spin_states());
+    let turned = if windy { layout.attitude() } else { 0..0 };
+    let shared = layout.carrier_motion().chain(l.inflow()).chain(l.spin_states()).chain(turned);
     for i in (l.modal(b).start..l.modal_rate(b).end).chain(shared) {
         all[n] = i;
         n += 1;

@@ -123,9 +123,13 @@ impl BladeSlopes {
         }
         let attitude = by_carrier.by_attitude.iter().enumerate().take(by_carrier.turning);
         for (k, by_acceleration) in attitude.clone() {
+            // the share of the air has no part in the weight
+            for i in hub.len()..N_LOADS {
+                self.loads_by_shared.set(i, Layout::ATTITUDE.start + k, self.loads_by_wind.at(i, k));
+            }
             for (i, row) in hub.iter().enumerate() {
                 let sum: f64 = (0..3).map(|j| row[j] * by_acceleration[j]).sum();
-                self.loads_by_shared.set(i, Layout::ATTITUDE.start + k, -sum);
+                self.loads_by_shared.set(i, Layout::ATTITUDE.start + k, self.loads_by_wind.at(i, k) - sum);
             }
         }
         for i in 0..m {
@@ -144,7 +148,7 @@ impl BladeSlopes {
             }
             for (k, by_acceleration) in attitude.clone() {
                 let sum: f64 = (0..3).map(|j| shared[j] * by_acceleration[j]).sum();
-                self.by_shared.set(i, Layout::ATTITUDE.start + k, -sum);
+                self.by_shared.set(i, Layout::ATTITUDE.start + k, self.by_wind.at(i, k) - sum);
             }
         }
     }

@@ -76,6 +76,9 @@ pub struct BladeSlopes {
     loads_dot: Block,
     loads_by_shared: Block,
     loads_by_shared_dot: Block,
+    // modal rows and loads by the attitude, through a wind
+    by_wind: Block,
+    loads_by_wind: Block,
 }
 
 /// What the shared rows feel of a rotor.
@@ -132,6 +135,8 @@ impl BladeSlopes {
             loads_dot: Block::new(N_LOADS, m),
             loads_by_shared: Block::new(N_LOADS, n),
             loads_by_shared_dot: Block::new(N_LOADS, n),
+            by_wind: Block::new(m, Layout::ATTITUDE.len()),
+            loads_by_wind: Block::new(N_LOADS, Layout::ATTITUDE.len()),
         }
     }
 

@@ -20,7 +20,7 @@ impl<F: InducedVelocity> RelaxationWake<F> {
                 let to = self.index(self.blade_row(l, blade), 0, 0);
                 let from = instant.free.marker(blade * n_t, 0);
                 for i in 0..markers {
-                    velocity[to + i] = at_instant[from + i].map(|v| v / self.options.rotor.omega);
+                    velocity[to + i] = at_instant[from + i].map(|v| v / self.options.rotor.omega * self.pace);
                 }
             }
         }

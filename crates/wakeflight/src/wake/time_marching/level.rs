@@ -27,7 +27,8 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
         carrier.clone_from(&self.carrier);
         let old_carry = inboard_sheet::convection(options, &self.hub, self.mean_inflow);
         let new_carry = inboard_sheet::convection(options, hub, self.mean_inflow);
-        let drift = mean(old_carry, new_carry).map(|v| v * options.delta_psi() / options.rotor.omega);
+        let drift =
+            mean(old_carry, new_carry).map(|v| v * options.delta_psi() / options.rotor.omega * self.pace);
         for (blade, state) in blades.iter().enumerate() {
             let gamma = &circulation[blade * n_r..(blade + 1) * n_r];
             next.place_blade(options, &self.grid, blade, state, gamma);
@@ -92,10 +93,20 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
                 *position = sum(carrier[i], unknown[i]);
             }
         }
+        let old = &self.instant.free;
         if !self.options.core_stretching {
+            // at one pace the age tells the core, which then stays with its place on the filament
+            if self.uneven {
+                let r2 = self.options.rotor.radius.powi(2);
+                let growth = self.options.core_growth * r2 * self.options.delta_psi() * self.pace;
+                for row in 0..old.n_filaments {
+                    for k in (row * n_k + 1..(row + 1) * n_k).rev() {
+                        next.free.core_squared[k] = old.core_squared[k - 1] + growth;
+                    }
+                }
+            }
             return;
         }
-        let old = &self.instant.free;
         for filament in 0..old.n_filaments {
             let release = self.options.release_core(filament % self.options.trailers_per_blade());
             next.free.core_squared[filament * n_k] = aged_core_squared(&self.options, release, 0);
@@ -104,8 +115,8 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
                     &self.options,
                     release,
                     old.core_squared[filament * n_k + k - 1],
-                    old.segment_length(filament, k - 1),
-                    next.free.segment_length(filament, k),
+                    [old.segment_length(filament, k - 1), next.free.segment_length(filament, k)],
+                    self.pace,
                 );
             }
         }

@@ -1,0 +1,126 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""What a wind is, a steady one, several at once, and a function of a user's own."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, fields
+from typing import Any, ClassVar
+
+import numpy as np
+
+from ..arguments import with_checked_init
+from ..errors import InputError
+from ..units import quantity
+
+STRONGEST = 100.0
+"""Most that the velocity of the air may be [m/s]."""
+
+
+class Wind:
+    """A wind: subclass it and define `__call__`, or give a function of points and time wherever a wind is asked for."""
+
+    kind: ClassVar[str] = "own"
+    """Name in files."""
+    carried: ClassVar[bool] = False
+    """Whether a steady wind beside it carries it along."""
+
+    def __call__(self, points: np.ndarray, t: float) -> np.ndarray:
+        """Velocity of the air (n, 3) [m/s] at `points` (n, 3) [m] and time `t` [s], north, east, down."""
+        raise NotImplementedError(f"{type(self).__name__} must define __call__(points, t)")
+
+    def drift(self) -> np.ndarray:
+        """Velocity (3,) [m/s] at which it carries what is carried."""
+        return np.zeros(3)
+
+    def described(self) -> dict[str, Any]:
+        """For the file of a run: the kind, and what it was made with."""
+        return {"kind": self.kind, "name": type(self).__name__}
+
+
+class Told(Wind):
+    """A wind whose fields are all that it was made with."""
+
+    def described(self) -> dict[str, Any]:
+        """Kind and fields."""
+        given = {each.name: getattr(self, each.name) for each in fields(self)}  # type: ignore[arg-type]
+        return {"kind": self.kind, **given}
+
+
+@with_checked_init
+@dataclass(frozen=True)
+class SteadyWind(Told):
+    """A wind that is the same everywhere and always.
+
+    speed, from_: text with units, where it blows from, clockwise from north; up: its vertical part, positive up.
+    """
+
+    kind: ClassVar[str] = "steady"
+
+    speed: str
+    from_: str = "0 deg"
+    up: str = "0 m/s"
+
+    def __post_init__(self) -> None:
+        """Check."""
+        _ = self.velocity
+
+    @property
+    def velocity(self) -> np.ndarray:
+        """North, east, down (3,) [m/s]."""
+        speed, angle = quantity(self.speed, "m/s", "wind speed"), quantity(self.from_, "rad", "wind from_")
+        found = np.array([-speed * math.cos(angle), -speed * math.sin(angle), -quantity(self.up, "m/s", "wind up")])
+        if speed < 0.0 or np.linalg.norm(found) > STRONGEST:
+            raise InputError.of("wind speed", self.speed, f"must be between 0 and {STRONGEST:g} m/s")
+        return found
+
+    def drift(self) -> np.ndarray:
+        """It carries what is carried."""
+        return self.velocity
+
+    def __call__(self, points: np.ndarray, t: float) -> np.ndarray:
+        """The same at every point."""
+        return np.broadcast_to(self.velocity, np.shape(points))
+
+
+class OwnWind(Wind):
+    """A function of a user's own."""
+
+    def __init__(self, function: Callable[[np.ndarray, float], Any]):
+        self.function = function
+
+    def __call__(self, points: np.ndarray, t: float) -> np.ndarray:
+        """What the function says."""
+        return np.asarray(self.function(points, t), dtype=float)
+
+    def described(self) -> dict[str, Any]:
+        """By the name of the function."""
+        try:
+            name = str(self.function.__qualname__)
+        except AttributeError:
+            name = type(self.function).__name__
+        return {"kind": self.kind, "name": name}
+
+
+class Winds(Wind):
+    """Several at once: their sum; steady winds carry along what is carried, such as turbulence."""
+
+    kind: ClassVar[str] = "sum"
+
+    def __init__(self, *parts: Wind):
+        self.parts = parts
+        self._drift = np.sum([part.drift() for part in parts], axis=0)
+
+    def drift(self) -> np.ndarray:
+        """That of its parts."""
+        return self._drift
+
+    def __call__(self, points: np.ndarray, t: float) -> np.ndarray:
+        """The sum."""
+        moved = points - self._drift * t
+        return np.sum([part(moved if part.carried else points, t) for part in self.parts], axis=0)
+
+    def described(self) -> dict[str, Any]:
+        """Part by part."""
+        return {"kind": self.kind, "parts": [part.described() for part in self.parts]}

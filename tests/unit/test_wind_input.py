@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""Winds as they are stated: objects, lists, tables, words; what a run's file tells of them, and what it cannot."""
+
+import numpy as np
+import pytest
+
+import wakeflight as wf
+from wakeflight.flight_input import FlightInput
+from wakeflight.wind import wind_from_text, wind_of, wind_of_table
+
+POINTS = np.random.default_rng(2).uniform(-50, 50, (9, 3))
+PARTS = [
+    wf.SteadyWind("8 m/s", from_="200 deg"),
+    wf.Gust(),
+    wf.Dryden("1 m/s", "100 m", 5),
+    wf.VonKarman("2 m/s", "80 m"),
+]
+
+
+@pytest.mark.parametrize("wind", [*PARTS, PARTS], ids=lambda wind: getattr(wind, "kind", "sum"))
+def test_what_is_told_of_a_wind_makes_it_again(wind):
+    made = wind_of(wind)
+    again = wind_of_table(made.described())
+    assert np.array_equal(again(POINTS, 2.5), made(POINTS, 2.5))
+
+
+def test_words_and_files_state_a_wind(tmp_path):
+    assert wind_from_text("10 kt from 270 deg") == wf.SteadyWind("10 kt", "270 deg")
+    assert wind_from_text("3 m/s") == wf.SteadyWind("3 m/s")
+    file = tmp_path / "breeze.toml"
+    file.write_text('[wind]\nkind = "gust"\namplitude = "3 m/s"\n')
+    assert wind_from_text(str(file)) == wf.Gust(amplitude="3 m/s")
+    for text, named in (
+        ('[wind]\nkind = "storm"\n', "wind.kind = 'storm'"),
+        ('[wind]\nkind = "gust"\nlong = "3 m"\n', "wind.long"),
+        ('[wind]\nkind = "gust"\nlength = "-3 m"\n', "breeze.toml: gust length"),
+        ("[gust]\n", "must have a table"),
+    ):
+        file.write_text(text)
+        with pytest.raises(wf.InputError, match=named):
+            wind_from_text(str(file))
+    with pytest.raises(wf.InputError, match="wind speed"):
+        wind_from_text("windy")
+
+
+def test_a_flight_in_wind_carries_it_and_is_flown_again_to_the_bit():
+    bo105 = wf.load_aircraft("bo105")
+    start = wf.trim(bo105, wf.FlightCondition(speed="60 kt"), inflow="dynamic")
+    nothing = wf.Maneuver("nothing", (), seconds=1.0)
+    run = wf.fly(start, nothing, revolutions=1, integrator="fixed", wind=PARTS).data
+    given = FlightInput.from_text(run.attrs["input"])
+    assert given.plan.wind.described() == wind_of(PARTS).described()
+    again = wf.fly(start, nothing, revolutions=1, integrator="fixed", wind=given.plan.wind).data
+    assert np.array_equal(again.w.values, run.w.values) and np.abs(run.wind.values).max() > 5.0
+    own = wf.fly(start, nothing, revolutions=0.2, integrator="fixed", wind=lambda points, t: 0.0 * points).data
+    with pytest.raises(wf.InputError, match="in no file"):
+        FlightInput.from_text(own.attrs["input"])
