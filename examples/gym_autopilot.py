@@ -42,7 +42,9 @@ def main(out: Path = Path("runs/examples"), seconds: float = 20.0) -> Path:
             times.append(info["t"])
             away.append(float(np.linalg.norm(observation[9:12])))
         axes.plot(times, away, label=label)
-        print(f"{label:<16} {times[-1]:5.1f} s flown, {away[-1]:6.2f} m away at the end, reward {reward / seconds:.2f} of 1")
+        print(
+            f"{label:<16} {times[-1]:5.1f} s flown, {away[-1]:6.2f} m away at the end, reward {reward / seconds:.2f} of 1"
+        )
     axes.set(xlabel="time [s]", ylabel="distance from the place [m]", ylim=(0.0, 30.0))
     axes.legend()
     out.mkdir(parents=True, exist_ok=True)

@@ -119,7 +119,7 @@ class HelicopterEnv(gymnasium.Env[np.ndarray, np.ndarray]):
         loaded = load_aircraft(aircraft) if isinstance(aircraft, str) else aircraft
         self.aircraft = loaded
         self.seconds, self.upset = number("seconds", seconds, 0.01, 1e5), number("upset", upset, 0.0, 10.0)
-        given = {} if self.task.speed is None else {"speed": f"{self.task.speed} m/s"}
+        given: dict[str, Any] = {} if self.task.speed is None else {"speed": f"{self.task.speed} m/s"}
         chosen = [FlightCondition(flight_path="0 deg", **given)] if conditions is None else list(conditions)
         if not chosen:
             raise InputError.of("conditions", chosen, "must hold at least one")

@@ -8,6 +8,7 @@ import os
 import re
 import socket
 import struct
+import sys
 import threading
 import time
 from pathlib import Path
@@ -18,6 +19,7 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import connect
 
 import wakeflight as wf
+from wakeflight import cli
 from wakeflight.cockpit import Session, Setup, height_of, messages
 from wakeflight.cockpit.messages import Message
 from wakeflight.cockpit.pace import AHEAD, LATE, Pace
@@ -392,12 +394,13 @@ def _scalars(shown):
 
 @pytest.fixture(scope="module")
 def setup(uh60a):
+    rigid = uh60a.with_rigid_blades()
     wake = wf.TimeMarchingWake(turns=2, azimuth_step="15 deg", update_interval="90 deg")
     condition = wf.FlightCondition(speed="80 kt", flight_path="0 deg", altitude="5250 ft", weight="16000 lbf")
 
     def made(folder, *names, **more):
         models = {"dynamic": wf.DynamicInflow(azimuth_step="15 deg"), "time-marching": wake}
-        return Setup(uh60a, condition, {name: models[name] for name in names}, folder, **more)
+        return Setup(rigid, condition, {name: models[name] for name in names}, folder, **more)
 
     return made
 
@@ -488,3 +491,45 @@ def test_orders_that_pile_up_are_not_taken(setup, tmp_path):
     assert all(session.say(Message(do="step")) for _ in range(64))
     assert not session.say(Message(do="step"))
     assert threading.active_count() < 50
+
+
+@pytest.mark.parametrize(
+    "arguments, named",
+    [
+        (["--inflow", "relaxation"], "--inflow"),
+        (["--port", "70000"], "--port"),
+        (["--ground", "1 in"], "ground"),
+        (["--control", "nowhere.toml"], "nowhere.toml"),
+        (["--wake", "turns=-1"], "turns"),
+    ],
+)
+def test_what_cannot_be_flown_is_one_line_and_exit_code_2(capsys, arguments, named):
+    with pytest.raises(SystemExit) as end:
+        cli.main(["cockpit", "--no-browser", *arguments])
+    assert end.value.code == 2
+    said = capsys.readouterr().err
+    assert named in said and said.count("\n") == 1
+
+
+def test_the_command_flies_the_preset_paper_steadied_unless_something_else_is_asked(monkeypatch, tmp_path):
+    asked = []
+    monkeypatch.setattr("wakeflight.cockpit.cockpit", lambda setup, *more: asked.append((setup, *more)))
+    for arguments in ([], ["--wake", "turns=3", "--inflow", "dynamic", "--control", "none"], ["--wake", "standard"]):
+        with pytest.raises(SystemExit) as end:
+            cli.main(
+                ["cockpit", "--no-browser", "--port", "0", "--ground", "100 m", "--out", str(tmp_path), *arguments]
+            )
+        assert end.value.code == 0
+    (first, port, browse, _), (second, *_), (third, *_) = asked
+    assert (port, browse, first.height, first.folder) == (0, False, 100.0, tmp_path)
+    assert list(first.models) == ["time-marching", "dynamic"] and list(second.models) == ["dynamic", "time-marching"]
+    assert first.models["time-marching"] == wf.TimeMarchingWake.preset("paper")
+    assert second.models["time-marching"] == wf.TimeMarchingWake.preset("paper", turns=3)
+    assert third.models["time-marching"] == wf.TimeMarchingWake()
+    assert first.control == steady() and second.control.nothing
+
+
+def test_without_the_package_websockets_it_says_what_to_install(monkeypatch):
+    monkeypatch.setitem(sys.modules, "websockets.asyncio.server", None)
+    with pytest.raises(wf.InputError, match=r"pip install wakeflight\[cockpit\]"):
+        Server(lambda message: True, MODELS)
