@@ -231,6 +231,9 @@ if not TYPE_CHECKING:
                 value: Any = version("wakeflight")
             except PackageNotFoundError:  # run from a source tree
                 value = "0+unknown"
+        elif name == "gym":
+            # a module, which needs Gymnasium
+            value = import_module(".gym", __name__)
         elif name in _HOME:
             value = getattr(import_module(f".{_HOME[name]}", __name__), name)
         else:
@@ -251,6 +254,10 @@ class _Package(ModuleType):
         """Keep a submodule from hiding the function of the same name."""
         if not (isinstance(value, ModuleType) and _HOME.get(name) == name):
             super().__setattr__(name, value)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """By name, as other modules are: functions that use it can be sent to other processes."""
+        return import_module, (self.__name__,)
 
 
 sys.modules[__name__].__class__ = _Package

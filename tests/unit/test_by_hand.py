@@ -73,7 +73,7 @@ def test_a_flight_by_hand_is_a_run_that_replays_to_the_same_bits(starts, inflow,
 
 
 def test_a_flight_by_hand_that_died_is_gone_on_with_to_the_same_bits(starts, tmp_path):
-    start = starts["flexible", "dynamic"]
+    start = starts["rigid", "dynamic"]
     with RunFolder(tmp_path / "dead", every=0.0) as folder:
         flying = _flying(folder, start)
         _move(flying, 30)
@@ -95,7 +95,7 @@ def test_a_flight_by_hand_that_died_is_gone_on_with_to_the_same_bits(starts, tmp
 
 def test_a_flight_by_hand_that_fails_keeps_what_was_flown(starts, tmp_path):
     with RunFolder(tmp_path) as folder:
-        flying = _flying(folder, starts["flexible", "dynamic"])
+        flying = _flying(folder, starts["rigid", "dynamic"])
         _move(flying, 10)
         flight = _end(flying, failure="a test")
     assert "a test" in flight.failure and flight.data.sizes["time"] == 10
@@ -105,7 +105,7 @@ def test_a_flight_by_hand_that_fails_keeps_what_was_flown(starts, tmp_path):
 @pytest.mark.parametrize("first, then", [("dynamic", "time-marching"), ("time-marching", "dynamic")])
 def test_a_flight_goes_on_with_another_inflow_model(starts, first, then, tmp_path):
     with RunFolder(tmp_path / "first") as folder:
-        flying = _flying(folder, starts["flexible", first], first)
+        flying = _flying(folder, starts["rigid", first], first)
         per_revolution = flying.sim.model.steps_per_revolution
         _move(flying, 2 * per_revolution - 2)
         with pytest.raises(wf.InputError, match="must end a revolution"):
@@ -113,7 +113,7 @@ def test_a_flight_goes_on_with_another_inflow_model(starts, first, then, tmp_pat
         _move(flying, 1)
         before, sim = _end(flying).data, flying.sim
     assert sim.steps == 2 * per_revolution
-    other = wf.Simulation(starts["flexible", then], inflow=then)
+    other = wf.Simulation(starts["rigid", then], inflow=then)
     fit = harmonics(sim, before.azimuth.values[-1], before.inflow.values[-1])
     begin = carried(sim, other, fit)
     if first == "dynamic":

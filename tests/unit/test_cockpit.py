@@ -1,4 +1,4 @@
-"""The cockpit's door and its flying: who comes in, what broken frames do, what a page that does not read costs, what is kept."""
+"""The cockpit's door: who comes in, what broken frames do, what a page that does not read costs; its pace."""
 
 import base64
 import contextlib
@@ -8,7 +8,7 @@ import os
 import re
 import socket
 import struct
-import threading
+import sys
 import time
 from pathlib import Path
 
@@ -18,13 +18,11 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import connect
 
 import wakeflight as wf
-from wakeflight.cockpit import Session, Setup, height_of, messages
+from wakeflight.cockpit import messages
 from wakeflight.cockpit.messages import Message
 from wakeflight.cockpit.pace import AHEAD, LATE, Pace
-from wakeflight.cockpit.picture import SCALARS, Shown
+from wakeflight.cockpit.picture import Shown
 from wakeflight.cockpit.server import MOST, PATIENCE, Server
-from wakeflight.cockpit.steady import steady
-from wakeflight.progress import Silent
 
 MODELS = ("dynamic", "time-marching")
 
@@ -365,126 +363,7 @@ def test_ten_thousand_broken_frames_are_survived(desk):
         assert closed.value.rcvd.code == 1008
 
 
-# --- the flying ---------------------------------------------------------------------------------------------------
-
-
-class Pilot:
-    """Steps one exchange at every picture; `plan(run, k)` says what else is done at the k-th of a run."""
-
-    def __init__(self, setup, plan):
-        self.session = Session(setup, Silent(), self.see, Pace(sleep=lambda _: None))
-        self.plan, self.seen, self.counts = plan, [], {}
-        self.session.run()
-
-    def see(self, shown):
-        k = self.counts[shown.run] = self.counts.get(shown.run, 0) + 1
-        self.seen.append(shown)
-        if json.loads(shown.status)["status"]["preparing"]:
-            # what is prepared beside gets the processor
-            time.sleep(0.05)
-        for message in self.plan(shown.run, k):
-            self.session.say(message)
-
-
-def _scalars(shown):
-    return dict(zip(SCALARS, struct.unpack_from(f"<{len(SCALARS)}f", shown.frame, 4), strict=True))
-
-
-@pytest.fixture(scope="module")
-def setup(uh60a):
-    wake = wf.TimeMarchingWake(turns=2, azimuth_step="15 deg", update_interval="90 deg")
-    condition = wf.FlightCondition(speed="80 kt", flight_path="0 deg", altitude="5250 ft", weight="16000 lbf")
-
-    def made(folder, *names, **more):
-        models = {"dynamic": wf.DynamicInflow(azimuth_step="15 deg"), "time-marching": wake}
-        return Setup(uh60a, condition, {name: models[name] for name in names}, folder, **more)
-
-    return made
-
-
-def test_a_session_keeps_every_flight_and_each_replays_to_the_same_bits(setup, tmp_path):
-    step, end = Message(do="step"), Message(do="end")
-
-    def plan(run, k):
-        sticks = Message(run, (0.5 + 0.01 * min(k, 10), 0.42, 0.3, 0.55))
-        if run == 2 and k == 15:
-            return [Message(do="restart")]
-        if run == 3 and k == 10:
-            return [end]
-        ask = [Message(inflow="time-marching")] if run == 1 and k == 3 else []
-        return [sticks, *ask, step]
-
-    pilot = Pilot(setup(tmp_path, "dynamic", "time-marching", control=steady()), plan)
-    assert [each.parent.name for each in pilot.session.runs] == ["01-dynamic", "02-time-marching", "03-time-marching"]
-    runs = [wf.open_run(each) for each in pilot.session.runs]
-    assert all(run.attrs["finished"] for run in runs)
-    first, second, third = runs
-    assert first.sizes["time"] % 24 == 1
-    # the second goes on where the first ended, the third begins at its trim
-    for name in ("u", "p", "roll", "north"):
-        assert float(second[name][0]) == float(first[name][-1])
-    assert float(third.north[0]) == 0.0 and float(second.north[0]) > 1.0
-    assert float(first.lateral.max() - first.lateral[0]) > 0.3
-    for path in pilot.session.runs:
-        again = wf.rerun(path)
-        assert again.same, (path, again.differing)
-    # pictures say what the runs say
-    shown = _scalars(pilot.seen[10])
-    row = int(np.argmin(np.abs(first.time.values - shown["time"])))
-    for name in ("roll", "q", "north"):
-        assert shown[name] == pytest.approx(float(first[name][row]), rel=1e-6)
-    assert shown["lateral"] == pytest.approx(float(first.lateral[row]) / 10.0, abs=1e-4)
-    assert 0.8 < shown["load_factor"] < 1.2 and 60e3 < shown["thrust"] < 80e3 and 3e5 < shown["power"] < 2e6
-    openings = {each.run: json.loads(each.opening)["opening"] for each in pilot.seen}
-    assert [openings[k]["ages"] for k in (1, 2, 3)] == [0, 49, 49]
-    assert [openings[k]["continued"] for k in (1, 2, 3)] == [False, True, False]
-    blades = openings[2]["blades"]
-    numbers = len(SCALARS) + 3 * blades + 3 + 4 * blades * 49
-    assert {len(each.frame) for each in pilot.seen if each.run == 2} == {4 + 4 * numbers}
-
-
-def test_sticks_of_a_run_that_has_ended_are_not_taken_and_hands_move_as_fast_as_they_can(setup, tmp_path):
-    def plan(run, k):
-        if k == 12:
-            return [Message(do="end")]
-        return [Message(run, (1.0, 0.42, 0.3, 0.5)), Message(run + 1, (0.0, 0.0, 0.0, 0.0)), Message(do="step")]
-
-    pilot = Pilot(setup(tmp_path, "dynamic"), plan)
-    run = wf.open_run(pilot.session.runs[0])
-    rate = np.diff(run.lateral.values) / np.diff(run.time.values)
-    assert rate.max() == pytest.approx(10.0, rel=2e-3) and rate.min() >= -1e-9
-    assert not run.attrs["warnings"] or "moves at" not in run.attrs["warnings"]
-
-
-def test_the_drawn_ground_ends_a_run(setup, tmp_path):
-    states = []
-
-    def plan(run, k):
-        states.append(json.loads(pilot_state())["status"]["state"])
-        return [Message(run, (0.5, 0.42, 0.0, 0.55)), Message(do="end" if states[-1] == "ended" else "step")]
-
-    def pilot_state():
-        return sessions[0].shown.status
-
-    sessions = []
-    session = Session(setup(tmp_path, "dynamic", height=1.0), Silent(), lambda shown: None, Pace(sleep=lambda _: None))
-    sessions.append(session)
-    count = iter(range(1, 10_000))
-    session.publish = lambda shown: [session.say(each) for each in plan(shown.run, next(count))]
-    session.run()
-    run = wf.open_run(session.runs[0])
-    assert run.attrs["finished"] and states[-1] == "ended"
-    assert 0.9 < float(run.down[-1]) < 1.5
-
-
-def test_a_ground_that_cannot_be_is_refused():
-    for wrong in (0.5, 3e4, float("nan")):
-        with pytest.raises(wf.InputError, match="ground"):
-            height_of(wrong)
-
-
-def test_orders_that_pile_up_are_not_taken(setup, tmp_path):
-    session = Session(setup(tmp_path, "dynamic"), Silent())
-    assert all(session.say(Message(do="step")) for _ in range(64))
-    assert not session.say(Message(do="step"))
-    assert threading.active_count() < 50
+def test_without_the_package_websockets_it_says_what_to_install(monkeypatch):
+    monkeypatch.setitem(sys.modules, "websockets.asyncio.server", None)
+    with pytest.raises(wf.InputError, match=r"pip install wakeflight\[cockpit\]"):
+        Server(lambda message: True, MODELS)

@@ -19,6 +19,7 @@ SHORT = {
     "own_maneuver": {"seconds": 1.0},
     "hover_stand": {"collectives": (6, 8), "wake_at": None},
     "autopilot": {"seconds": 0.6},
+    "gym_autopilot": {"seconds": 0.6},
     "vortex_ring": {"n_segments": 90},
     "blade_frequencies": {"n_speeds": 2},
     "dynamic_stall": {"steps": 360},

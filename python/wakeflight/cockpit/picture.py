@@ -87,7 +87,8 @@ class Painter:
     def opening(self) -> str:
         """What a page needs once: JSON."""
         flying, model = self.flying, self.flying.sim.model
-        aircraft = flying.start.aircraft
+        aircraft, mass = flying.start.aircraft, flying.start.condition.gross_mass
+        assert mass is not None, "the condition of a trim is complete"
         shape, radius = aircraft.geometry, float(model.rotor["radius"])
         tips = flying.sim.exchange.tips(flying.sim.steps)
         told: dict[str, Any] = {
@@ -105,7 +106,7 @@ class Painter:
             "continued": flying.given.plan.begin is not None,
             "trim": dict(zip(STICKS, (flying.trim_in / flying.travel_in).tolist(), strict=True)),
             "travel": dict(zip(STICKS, flying.travel_in.tolist(), strict=True)),
-            "weight": float(flying.start.condition.gross_mass) * STANDARD_GRAVITY,
+            "weight": float(mass) * STANDARD_GRAVITY,
             "trim_power": float(flying.start.mean_outputs()["power"]),
             "scalars": list(SCALARS),
         }
@@ -179,4 +180,5 @@ class Painter:
         tips = sim.exchange.tips(instant.step)
         if tips is not None:
             parts += [tips[0].ravel() / float(model.rotor["radius"]), tips[1].ravel()]
-        return np.uint32(self.run).astype("<u4").tobytes() + np.concatenate(parts).astype("<f4").tobytes()
+        found: bytes = np.uint32(self.run).astype("<u4").tobytes() + np.concatenate(parts).astype("<f4").tobytes()
+        return found

@@ -140,6 +140,7 @@ class Session:
                         self._pace.begin(0.0 if self._flying is None else self._flying.sim.t)
         finally:
             self._finish()
+            self._tell("the session has ended; its runs are being written")
             self._ahead.shutdown(cancel_futures=True)
             self._keeper.shutdown()
         for each in self._kept:

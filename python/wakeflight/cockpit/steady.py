@@ -12,7 +12,7 @@ from ..control import AttitudeHold, Augmentation, RateDamping, TurnCoordination
 def steady() -> Augmentation:
     """Attitude follows the cyclic: an inch is some ten degrees."""
     return Augmentation(
-        [
+        (
             AttitudeHold(
                 roll="5 in/rad",
                 roll_rate="2 in/(rad/s)",
@@ -22,5 +22,5 @@ def steady() -> Augmentation:
             ),
             RateDamping(yaw="3 in/(rad/s)", washout="3 s", authority="30 %"),
             TurnCoordination(yaw_rate="2 in/(rad/s)", sideslip="1 in/rad", authority="20 %"),
-        ]
+        )
     )

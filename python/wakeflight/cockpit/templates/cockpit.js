@@ -68,7 +68,9 @@
     const dt = last === null ? 0 : Math.min(0.1, (now - last) / 1000);
     last = now;
     if (opening) {
-      const sticks = hands.advance(dt).map((v) => Math.round(v * 1e5) / 1e5), text = sticks.join();
+      // in slow motion hands are as slow as the time
+      const slow = seen.scalars ? Math.min(1, Math.max(0.02, seen.scalars.pace)) : 1;
+      const sticks = hands.advance(dt * slow).map((v) => Math.round(v * 1e5) / 1e5), text = sticks.join();
       if (now - saidAt > 15 && text !== said) { say({ sticks, run: opening.run }); said = text; saidAt = now; }
     }
     if (fresh && frame && opening) {

@@ -2,8 +2,9 @@
 "use strict";
 const Instruments = (function () {
   const DEG = 180 / Math.PI, KNOT = 3600 / 1852, FOOT = 1 / 0.3048;
-  const text = (v, digits) => (Number.isFinite(v) ? v.toFixed(digits).replace("-", "−") : "–");
-  const signed = (v, digits) => (v >= 0 ? "+" : "") + text(v, digits);
+  // no zero below zero
+  const text = (v, digits) => (Number.isFinite(v) ? v.toFixed(digits).replace(/^-(0(\.0*)?)$/, "$1").replace("-", "−") : "–");
+  const signed = (v, digits) => (v >= 0 && Number(v.toFixed(digits)) > 0 ? "+" : "") + text(v, digits);
   // title, unit, what stands there
   const TILES = [
     ["speed", "kt", (s) => text(s.speed * KNOT, 0)],
