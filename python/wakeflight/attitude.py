@@ -13,3 +13,17 @@ def euler_angles(quaternion: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.nda
     pitch = np.arcsin(np.clip(2 * (w * y - z * x), -1, 1))
     yaw = np.arctan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
     return np.unwrap(roll), pitch, np.unwrap(yaw)
+
+
+def quaternion_of(roll: float, pitch: float, yaw: float) -> np.ndarray:
+    """Unit quaternion (4,), body to inertial, of roll, pitch, yaw (3-2-1) [rad]; its first component is not negative."""
+    (cr, sr), (cp, sp), (cy, sy) = ((np.cos(0.5 * each), np.sin(0.5 * each)) for each in (roll, pitch, yaw))
+    found = np.array(
+        [
+            cr * cp * cy + sr * sp * sy,
+            sr * cp * cy - cr * sp * sy,
+            cr * sp * cy + sr * cp * sy,
+            cr * cp * sy - sr * sp * cy,
+        ]
+    )
+    return -found if found[0] < 0.0 else found

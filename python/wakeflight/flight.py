@@ -25,6 +25,7 @@ from .interruption import text as text_of
 from .maneuvers import ROUNDING, Maneuver
 from .model import Model
 from .monitors import warnings as monitored
+from .perturbation import offsets_of
 from .progress import Progress, Reported, Silent, heard, reporting
 from .recorder import Recorder, keeps_sheets
 from .rotor_speed import CONSTANT, RotorSpeed, unflown
@@ -129,6 +130,7 @@ def fly(
     control: Any = None,
     actuators: Any = None,
     out: str | Path | None = None,
+    perturb: Any = None,
 ) -> Flight:
     """Fly `maneuver` from `start`.
 
@@ -143,6 +145,7 @@ def fly(
     and inflow are counted at the nominal speed. The flight has the revolutions that its duration has at the speed it begins at.
     control: what is between sticks and blades: a `wf.Controller`, a list of them or a `wf.Augmentation`; None is the manoeuvre's
     own, where its file has one; an empty list: nothing. actuators: servos behind the mixing unit, `generic` or `wf.Servos(...)`.
+    perturb: states the flight begins with beside those of the trim, `{"q": "2 deg/s", "pitch": "1 deg", "u": "1 m/s"}`.
 
     inflow: name or model, by default time-marching from a trim on a free wake, dynamic from a dynamic one. Wake options that
     depend on the regime (turns kept, far wake, relaxation) stay those of the trimmed condition for the whole flight, whatever
@@ -157,7 +160,8 @@ def fly(
     maneuver = maneuver.for_aircraft(start.aircraft.stick_travel_in, start.model.omega)
     made = augmentation(maneuver.control if control is None else control, actuators)
     speed = planned(rotor_speed)
-    plan = Plan(replace(maneuver, control=None), inflow, revolutions, integrator, rtol, stabilator, speed, made)
+    beside = offsets_of(perturb)
+    plan = Plan(replace(maneuver, control=None), inflow, revolutions, integrator, rtol, stabilator, speed, made, beside)
     given = FlightInput.of(start.aircraft, Asked.of(start), plan)
     flying = Flying(start, given, progress)
     if out is None:
@@ -179,11 +183,18 @@ class Flying:
         self._begun = time.perf_counter()
         plan = given.plan
         self.sim = Simulation.prepared(
-            start, plan.inflow, plan.integrator, plan.rtol, plan.stabilator, plan.rotor_speed, plan.control
+            start,
+            plan.inflow,
+            plan.integrator,
+            plan.rtol,
+            plan.stabilator,
+            plan.rotor_speed,
+            plan.control,
+            plan.perturb,
         )
         model, clock = self.sim.model, self.sim.clock
         travel = start.aircraft.stick_travel_in
-        maneuver = plan.maneuver.for_aircraft(travel, model.omega)
+        maneuver = plan.maneuver.for_aircraft(travel, model.omega).about(start.stick_si / INCH)
         self.n_steps = n_steps = flown_steps(model, maneuver, plan.revolutions)
         warnings = maneuver.check_travel(start.stick_si / INCH, travel, None, start.aircraft.stick_rate_limit_in)
         warnings += maneuver.check_end(max(clock.time(n_steps), maneuver.duration(model.omega)))

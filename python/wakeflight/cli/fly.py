@@ -3,6 +3,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from typing import Annotated
+
+import typer
+
 from . import outcome
 from .groups import (
     Blades,
@@ -19,7 +24,7 @@ from .groups import (
     Vehicle,
     Wake,
 )
-from .request import check_flight, request, seconds_between
+from .request import check_flight, perturbed, request, seconds_between
 
 
 def fly(
@@ -34,6 +39,10 @@ def fly(
     rotor_speed: RotorSpeedName = "constant",
     blades: Blades = None,
     control: Control = None,
+    perturb: Annotated[
+        list[str] | None,
+        typer.Option("--perturb", metavar="STATE=VALUE", help='begin beside the trim, "q=2 deg/s"; repeatable'),
+    ] = None,
     checkpoint: Checkpoint = "1 s",
     drawing: Drawing,
     run: Run,
@@ -42,6 +51,7 @@ def fly(
     check_flight(revolutions, integrator, rotor_speed)
     every = seconds_between(checkpoint)
     asked = request(vehicle, given, inflow, wake, run, maneuver, blades, drawing=drawing, control=control)
+    asked = replace(asked, perturb=perturbed(perturb))
     print(asked.told(), flush=True)
     from ..progress import Progress
 

@@ -69,6 +69,7 @@ def fly_once(
         integrator,
         rotor_speed=rotor_speed,
         control=control,
+        perturb=request.perturb,
     )
     given = FlightInput.of(request.aircraft, asked, plan)
     with RunFolder(out, every) as folder:
