@@ -50,6 +50,7 @@ if TYPE_CHECKING:
     from .resuming import branch, open_run, recover, rerun, resume
     from .simulation import Simulation
     from .snapshot import Snapshot
+    from .stick_inputs import doublet, frequency_sweep, recorded_sticks, step, three_two_one_one
     from .studies.converge import converge
     from .sweep import Normal, Uniform, arange, grid, sample, sweep
     from .trim import Trim, trim
@@ -129,6 +130,11 @@ _HOME = {
     "resume": "resuming",
     "Simulation": "simulation",
     "Snapshot": "snapshot",
+    "doublet": "stick_inputs",
+    "frequency_sweep": "stick_inputs",
+    "recorded_sticks": "stick_inputs",
+    "step": "stick_inputs",
+    "three_two_one_one": "stick_inputs",
     "Trim": "trim",
     "trim": "trim",
     "Tunnel": "tunnel",
@@ -190,11 +196,13 @@ __all__ = [
     "branch",
     "condition_for",
     "converge",
+    "doublet",
     "export",
     "export_wopwop",
     "file_schema",
     "fly",
     "follow",
+    "frequency_sweep",
     "from_control",
     "grid",
     "handling_qualities",
@@ -207,12 +215,15 @@ __all__ = [
     "load_rotor",
     "noise",
     "open_run",
+    "recorded_sticks",
     "recover",
     "rerun",
     "resume",
     "roll_reversal",
     "sample",
+    "step",
     "sweep",
+    "three_two_one_one",
     "trim",
     "tunnel",
     "wing",

@@ -25,3 +25,17 @@ def body_to_inertial(quaternion: np.ndarray) -> np.ndarray:
             [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
         ]
     )
+
+
+def quaternion_of(roll: float, pitch: float, yaw: float) -> np.ndarray:
+    """Unit quaternion (4,), body to inertial, of roll, pitch, yaw (3-2-1) [rad]; its first component is not negative."""
+    (cr, sr), (cp, sp), (cy, sy) = ((np.cos(0.5 * each), np.sin(0.5 * each)) for each in (roll, pitch, yaw))
+    found = np.array(
+        [
+            cr * cp * cy + sr * sp * sy,
+            sr * cp * cy - cr * sp * sy,
+            cr * sp * cy + sr * cp * sy,
+            cr * cp * sy - sr * sp * cy,
+        ]
+    )
+    return -found if found[0] < 0.0 else found

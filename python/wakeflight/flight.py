@@ -25,6 +25,7 @@ from .interruption import text as text_of
 from .maneuvers import ROUNDING, Maneuver
 from .model import Model
 from .monitors import warnings as monitored
+from .perturbation import offsets_of
 from .progress import Progress, Reported, Silent, heard, reporting
 from .recorder import Recorder, keeps_sheets
 from .rotor_speed import CONSTANT, RotorSpeed, unflown
@@ -131,6 +132,7 @@ def fly(
     actuators: Any = None,
     out: str | Path | None = None,
     wind: Any = None,
+    perturb: Any = None,
 ) -> Flight:
     """Fly `maneuver` from `start`.
 
@@ -145,6 +147,7 @@ def fly(
     and inflow are counted at the nominal speed. The flight has the revolutions that its duration has at the speed it begins at.
     control: what is between sticks and blades: a `wf.Controller`, a list of them or a `wf.Augmentation`; None is the manoeuvre's
     own, where its file has one; an empty list: nothing. actuators: servos behind the mixing unit, `generic` or `wf.Servos(...)`.
+    perturb: states the flight begins with beside those of the trim, `{"q": "2 deg/s", "pitch": "1 deg", "u": "1 m/s"}`.
 
     wind: `wf.SteadyWind`, `wf.Gust`, `wf.Dryden`, `wf.VonKarman`, `wf.WindField`, several of them in a list, or a function of
     points (n, 3) [m] and time [s] in inertial axes that gives the velocity of the air there (n, 3) [m/s]; held over a coupling
@@ -164,7 +167,16 @@ def fly(
     made = augmentation(maneuver.control if control is None else control, actuators)
     speed = planned(rotor_speed)
     plan = Plan(
-        replace(maneuver, control=None), inflow, revolutions, integrator, rtol, stabilator, speed, made, wind_of(wind)
+        replace(maneuver, control=None),
+        inflow,
+        revolutions,
+        integrator,
+        rtol,
+        stabilator,
+        speed,
+        made,
+        wind=wind_of(wind),
+        perturb=offsets_of(perturb),
     )
     given = FlightInput.of(start.aircraft, Asked.of(start), plan)
     flying = Flying(start, given, progress)
@@ -195,10 +207,11 @@ class Flying:
             plan.rotor_speed,
             plan.control,
             plan.wind,
+            plan.perturb,
         )
         model, clock = self.sim.model, self.sim.clock
         travel = start.aircraft.stick_travel_in
-        maneuver = plan.maneuver.for_aircraft(travel, model.omega)
+        maneuver = plan.maneuver.for_aircraft(travel, model.omega).about(start.stick_si / INCH)
         self.n_steps = n_steps = flown_steps(model, maneuver, plan.revolutions)
         warnings = maneuver.check_travel(start.stick_si / INCH, travel, None, start.aircraft.stick_rate_limit_in)
         warnings += maneuver.check_end(max(clock.time(n_steps), maneuver.duration(model.omega)))

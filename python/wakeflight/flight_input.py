@@ -27,6 +27,7 @@ from .inflow import MODELS, InflowModel, inflow_model
 from .integrators import RTOL
 from .maneuvers import Maneuver
 from .options import Radians, options_of
+from .perturbation import Perturbation
 from .progress import Progress, Silent
 from .rotor_speed import CONSTANT, RotorSpeed
 from .snapshot import Snapshot
@@ -55,6 +56,7 @@ class Plan:
     begin: Snapshot | None = None
     lattice: bool = True
     wind: Wind | None = None
+    perturb: Perturbation = ()
 
 
 @dataclass(frozen=True)
@@ -138,6 +140,7 @@ class FlightInput:
             plan["maneuver"] = Maneuver(**{name: _fixed(value) for name, value in plan["maneuver"].items()})
             plan["inflow"] = _model(plan["inflow"])
             plan["rotor_speed"] = _turning(plan["rotor_speed"])
+            plan["perturb"] = _fixed(plan.get("perturb", ()))
             if control is not None:
                 plan["control"] = control
             elif plan["control"] is not None:

@@ -9,7 +9,6 @@ names the `rotor_speed` its revolutions belong to lasts as long on any aircraft:
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -25,8 +24,10 @@ from .arguments import checked, with_checked_init
 from .control import Augmentation, from_table
 from .errors import InputError, one_line
 from .references import known_keys
+from .stick_histories import SHORTEST_PIECE, Corner, check_history, slopes_of
+from .stick_records import LONGEST_JOIN, read_sticks
 from .sticks import STICKS
-from .text import is_file, name_of, read_toml
+from .text import file_beside, is_file, name_of, read_toml
 from .units import number, quantity
 
 SHIPPED = ("arrested-descent", "roll-reversal", "roll-reversal-augmented")
@@ -35,10 +36,6 @@ SHIPPED = ("arrested-descent", "roll-reversal", "roll-reversal-augmented")
 ROUNDING = 1e-9
 """Times [s] nearer than this are one: corners at the edge of a coupling step are met there."""
 
-SHORTEST_PIECE = 1e-6
-"""Least time [s] between two corners: less than a recorder has, and rates of stick stay numbers."""
-
-Corner = tuple[float, float]
 _Real = Annotated[float, Field(strict=True)]
 _Points = list[tuple[_Real, _Real]] | None
 
@@ -54,7 +51,8 @@ class Maneuver:
     speed the revolutions belong to [rad/s]; None: they are those of whatever aircraft flies. shipped: whether it comes with
     the package and is flown as published, even beyond the stops. adapted: what `for_aircraft` changed, a sentence each. control:
     what is between sticks and blades where a flight is not given another, its inches those of `travel_in`. off_trim: whether
-    sticks may begin elsewhere than at trim, as they do where a flight goes on from another.
+    sticks may begin elsewhere than at trim, as they do where a flight goes on from another. absolute: whether inches count from
+    the stop instead of trim; from trim a stick then goes to its first place within `join` [s].
     """
 
     name: str
@@ -69,6 +67,8 @@ class Maneuver:
     adapted: tuple[str, ...] = ()
     control: Augmentation | None = None
     off_trim: bool = False
+    absolute: bool = False
+    join: float = 0.5
 
     if TYPE_CHECKING:
         # what it is made of is more than what it then holds
@@ -85,6 +85,9 @@ class Maneuver:
             shipped: bool = False,
             adapted: tuple[str, ...] = (),
             control: Augmentation | None = None,
+            off_trim: bool = False,
+            absolute: bool = False,
+            join: float = 0.5,
         ) -> None: ...
 
     def __post_init__(self) -> None:
@@ -113,8 +116,10 @@ class Maneuver:
             raise InputError.of(
                 "corners_of", self.corners_of, "must hold the corners of each stick that moves, by its name"
             )
+        if not 0.0 < number("join", self.join) <= LONGEST_JOIN:
+            raise InputError.of("join", self.join, f"must lie above 0 and at most {LONGEST_JOIN:g} s")
         for given in self.corners_of:
-            _check_history(given, self.off_trim)
+            check_history(given, self.absolute or self.off_trim)
         own = tuple((stick, tuple((float(t), float(x)) for t, x in corners)) for stick, corners in self.corners_of)
         object.__setattr__(self, "corners_of", own)
         sticks = [stick for stick, _ in self.corners_of]
@@ -130,13 +135,13 @@ class Maneuver:
         found = []
         for stick, corners in self.corners_of:
             times, inches = (np.array(each, dtype=float) for each in zip(*corners, strict=True))
-            found.append((STICKS.index(stick), times, inches, _slopes(corners)))
+            found.append((STICKS.index(stick), times, inches, slopes_of(corners)))
         return tuple(found)
 
     def _check_begins(self, end: float) -> None:
         """Refuse a stick that would first move when the flight is over."""
         for stick, corners in self.corners_of:
-            begins = next((t for (t, _), slope in zip(corners, _slopes(corners), strict=False) if slope != 0.0), None)
+            begins = next((t for (t, _), slope in zip(corners, slopes_of(corners), strict=False) if slope != 0.0), None)
             if begins is not None and begins >= end:
                 allowed = f"must begin to move before the end of the flight at {end:.6g} s: times count from its start"
                 raise InputError.of(stick, f"{begins:.12g} s", allowed)
@@ -145,7 +150,7 @@ class Maneuver:
         """Warnings about motion of the sticks after the end of the flight at `end` [s]."""
         warnings = []
         for stick, corners in self.corners_of:
-            moved = [t for (t, _), slope in zip(corners[1:], _slopes(corners), strict=True) if slope != 0.0]
+            moved = [t for (t, _), slope in zip(corners[1:], slopes_of(corners), strict=True) if slope != 0.0]
             if moved and moved[-1] > end * (1.0 + 1e-9):
                 first = next(t for t in moved if t > end * (1.0 + 1e-9))
                 warnings.append(
@@ -174,7 +179,7 @@ class Maneuver:
         """Times at which the slope of a stick changes [s], ascending, each once: the solver stops there."""
         times = set()
         for _, corners in self.corners_of:
-            slopes = [0.0, *_slopes(corners), 0.0]
+            slopes = [0.0, *slopes_of(corners), 0.0]
             times |= {time for (time, _), a, b in zip(corners, slopes, slopes[1:], strict=False) if a != b}
         return tuple(sorted(times))
 
@@ -244,6 +249,29 @@ class Maneuver:
         own._check_begins(own.duration(omega))
         return own
 
+    def about(self, trim_in: Sequence[float]) -> Maneuver:
+        """The manoeuvre about trim: inches from the stop become those from `trim_in` (4,) [in], each stick led from trim to
+        them."""
+        if not self.absolute:
+            return self
+        corners_of, adapted = [], list(self.adapted)
+        for stick, corners in self.corners_of:
+            times, inches = (np.array(each, dtype=float) for each in zip(*corners, strict=True))
+            offset = inches - float(trim_in[STICKS.index(stick)])
+            # corners where the lead-in begins and ends, as far as they are not there
+            grid = np.concatenate(
+                [times, [each for each in (0.0, self.join) if np.abs(times - each).min() > SHORTEST_PIECE]]
+            )
+            grid.sort()
+            gap = offset[0]
+            led = np.interp(grid, times, offset) - gap * np.clip(1.0 - grid / self.join, 0.0, None)
+            led[grid <= SHORTEST_PIECE] = 0.0
+            corners_of.append((stick, tuple(zip(grid.tolist(), led.tolist(), strict=True))))
+            if abs(gap) > 1e-6:
+                said = f"{stick} begins {gap:+.3f} in from trim and is led there within {self.join:g} s"
+                adapted.append(f"{self.name}: {said}")
+        return replace(self, corners_of=tuple(corners_of), absolute=False, adapted=tuple(adapted))
+
     def check_span(self, travel_in: Sequence[float]) -> None:
         """Refuse a user's manoeuvre that fits between the stops for no trim; travel_in (4,) [in]."""
         for stick, corners in self.corners_of:
@@ -279,7 +307,7 @@ class Maneuver:
                     raise InputError.of(f"{self.name}: {stick}", f"{inches:g} in", allowed)
                 how = "as published, scaled" if self.adapted else "as published"
                 warnings.append(f"{self.name}: {stick} stick reaches {reached}; flown {how}")
-            fastest = max((abs(slope) for slope in _slopes(corners)), default=0.0)
+            fastest = max((abs(slope) for slope in slopes_of(corners)), default=0.0)
             if fastest > limit * (1.0 + 1e-9):
                 warnings.append(f"{self.name}: {stick} moves at {fastest:.1f} in/s, beyond {limit:.4g} in/s; flown so")
         return warnings
@@ -314,19 +342,22 @@ def roll_reversal() -> Maneuver:
 
 @checked
 def load_maneuver(name_or_path: str | Path) -> Maneuver:
-    """Manoeuvre from a shipped name (`arrested-descent`, `roll-reversal`, `roll-reversal-augmented`) or the path of a TOML file.
+    """Manoeuvre from a shipped name (`arrested-descent`, `roll-reversal`, `roll-reversal-augmented`) or the path of a TOML
+    file; of sticks that were recorded (CSV) as `wf.recorded_sticks` reads them.
 
     Raises InputError, one line naming file, key, value and what is allowed.
     """
     if str(name_or_path) in SHIPPED:
         return _shipped(str(name_or_path))
     path = Path(name_or_path)
+    if path.suffix.lower() == ".csv" and is_file(path):
+        return recorded(path, "first", Maneuver.join, None, None)
     if not is_file(path):
         raise InputError.choice(
             "maneuver",
             str(name_or_path),
             SHIPPED,
-            " or the path of a manoeuvre file (.toml), and there is no such file",
+            " or the path of a manoeuvre file (.toml) or of recorded sticks (.csv), and there is no such file",
         )
     return _read(path, shipped=False)
 
@@ -351,6 +382,13 @@ class _Controls(BaseModel):
         return self
 
 
+class _Recorded(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True)
+    file: str
+    about: str = "first"
+    join: str = "0.5 s"
+
+
 class _File(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
     name: str
@@ -360,6 +398,19 @@ class _File(BaseModel):
     sources: list[str] = []
     travel: _Real | None = None
     rotor_speed: _Real | None = None
+    control: dict[str, Any] | None = None
+
+
+class _RecordedFile(BaseModel):
+    """What a manoeuvre file may hold that names recorded sticks."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+    name: str
+    recorded: _Recorded
+    duration: _Duration | None = None
+    notes: str = ""
+    sources: list[str] = []
+    travel: _Real | None = None
     control: dict[str, Any] | None = None
 
 
@@ -376,19 +427,22 @@ def _read(path: Path, shipped: bool) -> Maneuver:
         data = read_toml(path)
     except ValueError as reason:
         raise InputError(one_line(f"{path}: {reason}")) from reason
+    schema: Any = _RecordedFile if "recorded" in data else _File
     try:
-        file = _File.model_validate(data)
+        file = schema.model_validate(data)
     except ValidationError as reason:
         error = reason.errors()[0]
         key = ".".join(str(part) for part in error["loc"])
         message = error["msg"].removeprefix("Value error, ")
         if error["type"] == "extra_forbidden":
-            groups: dict[str, type[BaseModel]] = {"controls": _Controls, "duration": _Duration}
-            group = groups.get(str(error["loc"][0]), _File) if len(error["loc"]) > 1 else _File
+            groups: dict[str, Any] = {"controls": _Controls, "duration": _Duration, "recorded": _Recorded}
+            group = groups.get(str(error["loc"][0]), schema) if len(error["loc"]) > 1 else schema
             raise InputError.of(key, "unknown key", f"allowed: {', '.join(group.model_fields)}", file=path) from None
         value = "missing" if error["type"] == "missing" else error["input"]
         raise InputError.of(key, value, message, file=path) from None
     control = None if file.control is None else from_table(file.control, path)
+    if schema is _RecordedFile:
+        return _of_record(path, file, control)
     corners = tuple((stick, tuple(points)) for stick in STICKS if (points := getattr(file.controls, stick)) is not None)
     try:
         return Maneuver(
@@ -407,6 +461,31 @@ def _read(path: Path, shipped: bool) -> Maneuver:
         raise InputError(f"{path}: {reason}") from None
 
 
+def _of_record(path: Path, file: _RecordedFile, control: Augmentation | None) -> Maneuver:
+    """The manoeuvre of a file that names recorded sticks."""
+    try:
+        beside = file_beside(path.parent, file.recorded.file)
+        found = recorded(
+            beside, file.recorded.about, quantity(file.recorded.join, "s", "recorded.join"), None, file.name
+        )
+        length = {} if file.duration is None else vars(file.duration)
+        said = {"notes": file.notes.strip(), "references": _known(file.sources), "travel_in": file.travel}
+        return replace(found, control=control, **length, **said)
+    except ValueError as reason:
+        raise InputError(str(reason) if str(path) in str(reason) else f"{path}: {reason}") from None
+
+
+def recorded(path: Path, about: str, join: float, seconds: float | None, name: str | None) -> Maneuver:
+    """Sticks that were recorded, as `stick_inputs.recorded_sticks` takes them; times [s]."""
+    record = read_sticks(path, about)
+    length = max(corners[-1][0] for corners in record.values()) if seconds is None else seconds
+    absolute = about == "stop"
+    try:
+        return Maneuver(name or path.stem, tuple(record.items()), seconds=length, absolute=absolute, join=join)
+    except InputError as reason:
+        raise reason.within(path) from None
+
+
 def _known(sources: list[str]) -> tuple[str, ...]:
     for key in sources:
         if key not in known_keys():
@@ -414,34 +493,3 @@ def _known(sources: list[str]) -> tuple[str, ...]:
                 "sources", key, "not in references.bib; leave it out and say in notes where it comes from"
             )
     return tuple(sources)
-
-
-def _check_history(given: Any, off_trim: bool) -> None:
-    """Refuse what is no stick with its corners, times ascending from 0 s, inches from 0 unless it may begin `off_trim`."""
-    if not isinstance(given, tuple | list) or len(given) != 2:
-        raise InputError.of("corners_of", given, "must hold a pair (stick, corners) for each stick that moves")
-    stick, corners = given
-    if stick not in STICKS:
-        raise InputError.choice("controls", stick, STICKS)
-    for corner in corners if isinstance(corners, tuple | list) else [corners]:
-        if not isinstance(corner, tuple | list) or len(corner) != 2:
-            raise InputError.of(stick, corner, "must hold pairs of numbers (time s, inches from trim)")
-        for each in corner:
-            number(stick, each)
-    if len(corners) < 2:
-        raise InputError.of(stick, list(corners), "must have at least two corner points [time s, inches from trim]")
-    if corners[0][0] < 0.0:
-        raise InputError.of(stick, f"{corners[0][0]:g} s", "must start at 0 s or later")
-    if corners[0][1] != 0.0 and not off_trim:
-        raise InputError.of(stick, f"{corners[0][1]:g} in", "must start from trim, 0 in")
-    for (before, _), (after, _) in itertools.pairwise(corners):
-        if not after > before:
-            raise InputError.of(stick, f"{before:g} s, {after:g} s", "times must ascend strictly")
-        if after - before < SHORTEST_PIECE:
-            allowed = f"corners must be {SHORTEST_PIECE:g} s apart or more: a hand does not jump"
-            raise InputError.of(stick, f"{before:.9g} s, {after:.9g} s", allowed)
-
-
-def _slopes(corners: Sequence[Corner]) -> list[float]:
-    """Slopes of the pieces between corners [in/s]."""
-    return [(b[1] - a[1]) / (b[0] - a[0]) for a, b in itertools.pairwise(corners)]

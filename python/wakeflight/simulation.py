@@ -28,6 +28,7 @@ from .exchange import Exchange, exchange_of
 from .inflow import InflowModel, inflow_model, like
 from .integrators import INTEGRATORS, RTOL
 from .model import Model, flight_regime
+from .perturbation import Perturbation, offsets_of, perturbed
 from .progress import Progress, Reported, Silent, heard
 from .rotor_speed import CONSTANT, RotorSpeed, shares
 from .snapshot import Snapshot
@@ -78,7 +79,7 @@ class Simulation(Stepping):
     inflow: name or model as for `fly`, by default time-marching from a trim on a free wake, dynamic from a dynamic one; a
     marching wake goes through its convergence phase here. integrator: `fixed`, one step of order five per coupling step, or
     `ida`, variable in step and order. control, actuators: what is between sticks and blades, as for `fly`; None: nothing. rtol,
-    stabilator, rotor_speed, wind: as for `fly`.
+    stabilator, rotor_speed, wind, perturb: as for `fly`.
 
     `snapshot()` is everything that what comes depends on; after `restore(snapshot)` the same bits follow, here, in a copy or in
     another process. IDA hides its memory (history, order, step, derivatives): with `ida` a snapshot, and a restoration too,
@@ -103,11 +104,13 @@ class Simulation(Stepping):
         rotor_speed: RotorSpeed | Engine = CONSTANT,
         actuators: Any = None,
         wind: Any = None,
+        perturb: Any = None,
         progress: Reported = None,
     ):
         turned, made = turning(rotor_speed), augmentation(control, actuators)
         model = flight_model(start, inflow, turned)
         self._prepare(start, model, integrator, rtol, stabilator, turned, made, wind_of(wind))
+        self._move(perturb)
         self.converge(heard(progress))
 
     @classmethod
@@ -121,14 +124,20 @@ class Simulation(Stepping):
         rotor_speed: RotorSpeed | Engine = CONSTANT,
         control: Augmentation | None = None,
         wind: Wind | None = None,
+        perturb: Perturbation = (),
     ) -> Simulation:
         """A simulation that has been checked; `converge` must follow."""
         sim = cls.__new__(cls)
         turned, made = turning(rotor_speed), augmentation(control)
         sim._prepare(start, flight_model(start, inflow, turned), integrator, rtol, stabilator, turned, made, wind)
+        sim._move(perturb)
         return sim
 
     seconds_before: dict[str, float]
+
+    def _move(self, perturb: Any) -> None:
+        """Begin beside the trim."""
+        self._y = perturbed(self._y, self.model.core.state_names(), offsets_of(perturb))
 
     def converge(self, progress: Progress | Silent) -> None:
         """Start the exchange; a marching wake goes through its convergence phase."""

@@ -17,7 +17,7 @@ import typer
 
 from ..atomic import write_text
 from ..errors import InputError
-from ..text import read_toml
+from ..text import file_beside, read_text, read_toml
 from .export import FORMATS, export_to
 from .request import writable
 
@@ -118,7 +118,15 @@ def _inflow(options: dict[str, Any], file: Path) -> Iterator[str]:
 
 
 def _own_maneuver(content: dict[str, Any], file: Path, folder: Path) -> Path:
-    """The manoeuvre that stands in the case file, as a file of its own beside the results."""
+    """The manoeuvre that stands in the case file, as a file of its own beside the results, with the sticks that it names."""
+    record = content.get("recorded")
+    if isinstance(record, dict) and isinstance(record.get("file"), str):
+        try:
+            text = read_text(file_beside(file.parent, record["file"]))
+        except ValueError as reason:
+            raise InputError.of("maneuver.recorded.file", record["file"], str(reason), file=file) from reason
+        write_text(folder / "sticks.csv", text)
+        content = {**content, "recorded": {**record, "file": "sticks.csv"}}
     lines = [f"{json.dumps(key)} = {_toml(value)}" for key, value in {"name": file.stem, **content}.items()]
     return write_text(folder / "maneuver.toml", "\n".join(lines) + "\n")
 

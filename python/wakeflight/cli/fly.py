@@ -3,6 +3,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from typing import Annotated
+
+import typer
+
 from . import outcome
 from .groups import (
     Blades,
@@ -20,7 +25,7 @@ from .groups import (
     Wake,
     WindName,
 )
-from .request import check_flight, request, seconds_between, wind_named
+from .request import check_flight, perturbed, request, seconds_between, wind_named
 
 
 def fly(
@@ -36,6 +41,10 @@ def fly(
     wind: WindName = None,
     blades: Blades = None,
     control: Control = None,
+    perturb: Annotated[
+        list[str] | None,
+        typer.Option("--perturb", metavar="STATE=VALUE", help='begin beside the trim, "q=2 deg/s"; repeatable'),
+    ] = None,
     checkpoint: Checkpoint = "1 s",
     drawing: Drawing,
     run: Run,
@@ -45,6 +54,7 @@ def fly(
     blown = wind_named(wind)
     every = seconds_between(checkpoint)
     asked = request(vehicle, given, inflow, wake, run, maneuver, blades, drawing=drawing, control=control)
+    asked = replace(asked, perturb=perturbed(perturb))
     print(asked.told(), flush=True)
     from ..progress import Progress
 

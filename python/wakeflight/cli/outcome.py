@@ -71,6 +71,7 @@ def fly_once(
         rotor_speed=rotor_speed,
         control=control,
         wind=wind,
+        perturb=request.perturb,
     )
     given = FlightInput.of(request.aircraft, asked, plan)
     with RunFolder(out, every) as folder:

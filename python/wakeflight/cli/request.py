@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from ..control import Augmentation
     from ..inflow import InflowModel
     from ..maneuvers import Maneuver
+    from ..perturbation import Perturbation
     from .groups import Run, Straight, Vehicle, Wake
 
 
@@ -37,6 +38,7 @@ class Request:
     maneuver: Maneuver | None = None
     typed: tuple[str, ...] = ()
     control: Augmentation | None = None
+    perturb: Perturbation = ()
 
     def told(self) -> str:
         """The condition that is flown, what was given before what the aircraft's file gives, in the units of pilots."""
@@ -117,6 +119,19 @@ def changed(aircraft: Aircraft, typed: Sequence[str] | None) -> Aircraft:
             raise InputError.of("--set", each, "must be NAME=VALUE, rotor.omega=26 rad/s")
         changes[name.strip()] = typed_value(value.strip())
     return aircraft.with_(changes) if changes else aircraft
+
+
+def perturbed(typed: Sequence[str] | None) -> Perturbation:
+    """States that a flight begins with beside its trim."""
+    from ..perturbation import offsets_of
+
+    found: dict[str, Any] = {}
+    for each in typed or ():
+        name, stated, value = each.partition("=")
+        if not stated or not name.strip():
+            raise InputError.of("--perturb", each, 'must be STATE=VALUE, "q=2 deg/s"')
+        found[name.strip()] = typed_value(value.strip())
+    return offsets_of(found)
 
 
 def typed_value(text: str) -> Any:

@@ -31,6 +31,7 @@ from ..linear.instants import check_inputs
 from ..linear.wake import check_wake
 from ..maneuvers import load_maneuver
 from ..model import flight_regime
+from ..perturbation import offsets_of
 from ..trim import trim
 from ..tunnel import check as check_stand
 from ..tunnel import tunnel
@@ -138,6 +139,9 @@ class OfFlight:
         else:
             condition = condition_for(aircraft, named, **given)
         own = {name: case[name] for name in (*OF_TRIM, *self.own) if name in case}
+        beside = _dotted(case, "perturb")
+        if beside:
+            own["perturb"] = {**own.get("perturb", {}), **beside}
         return aircraft, condition, inflow_of(case, self.inflow), own
 
     def check(self, case: Case) -> None:
@@ -170,7 +174,11 @@ class OfFlight:
 def check_names(case: Case, allowed: tuple[str, ...]) -> None:
     """Refuse names that a verb does not take."""
     for name, value in case.items():
-        if name not in allowed and not name.startswith(("aircraft.", "inflow.")):
+        dotted = name.partition(".")[0] in ("aircraft", "inflow", "perturb") and name.partition(".")[0] in (
+            *allowed,
+            "aircraft",
+        )
+        if name not in allowed and not ("." in name and dotted):
             near = get_close_matches(name, allowed, n=1)
             meant = f"did you mean {near[0]}? " if near else ""
             raise InputError.of(name, value, f"{meant}allowed: {', '.join(allowed)}, aircraft.NAME, inflow.NAME")
@@ -186,6 +194,7 @@ def _check_flight(given: Mapping[str, Any], aircraft: Any, condition: Any, inflo
     maneuver = _maneuver(given).for_aircraft(aircraft.stick_travel_in, float(aircraft.rotor.omega))
     maneuver.check_span(aircraft.stick_travel_in)
     _check_types(fly, {name: value for name, value in given.items() if name != "maneuver"})
+    offsets_of(given.get("perturb"))
     made = augmentation(maneuver.control if given.get("control") is None else given["control"], given.get("actuators"))
     made.check_on(aircraft)
 
