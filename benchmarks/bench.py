@@ -25,7 +25,7 @@ PARTS = (
 
 
 def fastest(kernel: str) -> float:
-    """Nanoseconds per evaluation of the production core on the widest instruction set, from the kernel's table."""
+    """Nanoseconds per evaluation of the wakes' core as they sum it by default, from the kernel's table."""
     row = next(line for line in kernel.splitlines() if line.startswith("| Vatistas2 | line"))
     return min(float(cell.split()[0]) for cell in row.split("|")[4:-3] if cell.strip())
 

@@ -32,6 +32,7 @@ PRESETS: dict[str, dict[str, Any]] = {
         "predictor": "same",
         "evaluation": "pece",
         "form": "displacement",
+        "precision": "single",
         "convergence_revolutions": 10,
         "recorrect": 0,
         "extrapolate": False,
@@ -44,6 +45,7 @@ PRESETS: dict[str, dict[str, Any]] = {
         "azimuth_step": "15 deg",
         "turns": 10,
         "far_wake_turns": 0,
+        "precision": "double",
     },
 }
 """Options of each preset; a model takes those it has."""

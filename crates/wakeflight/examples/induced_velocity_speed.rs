@@ -2,7 +2,8 @@
 //!
 //! One line each: core distance, core, instruction set, median and best of 51 repetitions [ns]. `textbook` is the plain
 //! loop over points and segments of the reference law, measured in turn with the others; `directional` the sum with its
-//! derivative along a direction, on the instruction set in use.
+//! derivative along a direction, on the instruction set in use. A name that ends in `-single` is a sum in single precision,
+//! which is there for one core.
 use std::f64::consts::FRAC_PI_2;
 use std::hint::black_box;
 use std::time::Instant;
@@ -10,6 +11,8 @@ use wakeflight::numerics::instruction_set::InstructionSet;
 use wakeflight::vortex::core::{Core, CoreDistance, segment_velocity};
 use wakeflight::vortex::directional::{Targets, directional};
 use wakeflight::vortex::induced_velocity::{Filaments, add_filaments_velocity_on};
+use wakeflight::vortex::single;
+use wakeflight::vortex::sources::{Group, Packing, Sources};
 use wakeflight::vortex::threads::set_threads;
 
 const CORES: [Core; 6] =
@@ -70,6 +73,14 @@ fn main() {
         nodes: filaments.nodes.iter().map(|p| [p[1], -p[0], 0.1]).collect(),
         ..filaments.clone()
     };
+    let mut sources = Sources::default();
+    sources.clear(Packing::Single(1.0));
+    for (nodes, circulation) in filaments.nodes.chunks(145).zip(filaments.circulation.chunks(144)) {
+        for (ends, circulation) in nodes.windows(2).zip(circulation) {
+            sources.push(ends[0], ends[1], *circulation, 0.05);
+        }
+    }
+    let whole = [sources.whole()];
     let moves = vec![[0.1, 0.2, 0.3]; points.len()];
     let evaluations = (points.len() * filaments.circulation.len()) as f64;
     let mut velocity = vec![[0.0; 3]; points.len()];
@@ -87,6 +98,12 @@ fn main() {
             for set in sets.clone() {
                 line(set.name(), 1.0, &mut |v| {
                     add_filaments_velocity_on(set, &points, &filaments, core, distance, v);
+                });
+            }
+            for set in sets.clone().filter(|_| core == Core::Vatistas2) {
+                line(&format!("{}-single", set.name()), 1.0, &mut |velocity| {
+                    let mut groups = [Group { points: &points, sources: &whole, velocity }];
+                    single::add_groups_velocity_on(set, &mut groups, distance);
                 });
             }
             line("directional", 1.0, &mut |_| {

@@ -160,21 +160,28 @@ impl ForModel for Direct<'_, '_> {
     /// Shares the points among threads; every point sees all its sources in order, whichever thread it is on.
     fn run<M: Model, const TO_SEGMENT: bool>(self) {
         let Self { groups, instruction_set } = self;
-        let (n_points, evaluations) =
-            groups.iter().fold((0, 0), |(n, all), g| (n + g.points.len(), all + g.evaluations()));
-        let sum = |(points, parts, velocity): (&[[f64; 3]], &[Part<'_>], &mut [[f64; 3]])| {
+        over_groups(groups, |points: &[[f64; 3]], parts: &[Part<'_>], velocity: &mut [[f64; 3]]| {
             run(Sum::<M, TO_SEGMENT>::new(points, parts, velocity), instruction_set);
-        };
-        let pieces = groups.iter_mut().flat_map(|group| {
-            let Group { points, sources, velocity } = group;
-            debug_assert_eq!(points.len(), velocity.len());
-            let sources: &[Part<'_>] = sources;
-            points.chunks(CHUNK).zip(velocity.chunks_mut(CHUNK)).map(move |(p, v)| (p, sources, v))
         });
-        if n_points > CHUNK && evaluations > LEAST_SHARED_WORK as u64 {
-            share(pieces, sum);
-        } else {
-            pieces.for_each(sum);
-        }
+    }
+}
+
+/// Sums for some points at a time, (points, what they see, velocity): shared among threads where that is worth it.
+pub(super) fn over_groups(
+    groups: &mut [Group<'_>],
+    sum: impl Fn(&[[f64; 3]], &[Part<'_>], &mut [[f64; 3]]) + Sync,
+) {
+    let (n_points, evaluations) =
+        groups.iter().fold((0, 0), |(n, all), g| (n + g.points.len(), all + g.evaluations()));
+    let pieces = groups.iter_mut().flat_map(|group| {
+        let Group { points, sources, velocity } = group;
+        debug_assert_eq!(points.len(), velocity.len());
+        let sources: &[Part<'_>] = sources;
+        points.chunks(CHUNK).zip(velocity.chunks_mut(CHUNK)).map(move |(p, v)| (p, sources, v))
+    });
+    if n_points > CHUNK && evaluations > LEAST_SHARED_WORK as u64 {
+        share(pieces, |(points, parts, velocity)| sum(points, parts, velocity));
+    } else {
+        pieces.for_each(|(points, parts, velocity)| sum(points, parts, velocity));
     }
 }

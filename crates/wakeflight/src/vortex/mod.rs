@@ -4,6 +4,7 @@ pub mod curvature;
 pub mod cylinder;
 pub mod directional;
 pub mod induced_velocity;
+pub mod single;
 pub mod sources;
 pub mod threads;
 pub mod tree;

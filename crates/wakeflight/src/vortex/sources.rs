@@ -1,5 +1,8 @@
 //! Segments packed once for several sums, whole or in parts.
 
+pub use super::strands::Packing;
+
+use super::single::SinglePart;
 use super::strands::{Piece, Strand, Strands};
 
 /// Straight segments in the order of the sum; joined ones share their nodes. Room is kept when they are cleared.
@@ -20,6 +23,7 @@ pub struct Mark {
 pub struct Part<'a> {
     pub(super) strands: &'a [Strand],
     pub(super) pieces: &'a [Piece],
+    pub(super) single: Option<SinglePart<'a>>,
 }
 
 /// Points and what they see: the parts are summed one after the other.
@@ -34,9 +38,9 @@ pub struct Group<'a> {
 }
 
 impl Sources {
-    /// Without segments.
-    pub fn clear(&mut self) {
-        self.strands.clear();
+    /// Without segments; those that come are packed as told.
+    pub fn clear(&mut self, packing: Packing) {
+        self.strands.clear(packing);
     }
 
     /// Appends a segment; one that starts where the last ended shares the node.
@@ -47,22 +51,24 @@ impl Sources {
     /// The place after the last segment; a part may begin or end here.
     pub fn mark(&mut self) -> Mark {
         self.strands.cut();
-        Mark { strands: self.strands.strands.len(), pieces: self.strands.pieces.len() }
+        Mark { strands: self.strands.strands.len(), pieces: self.strands.n_pieces }
     }
 
     /// What was appended between two marks.
     #[must_use]
     pub fn part(&self, from: Mark, to: Mark) -> Part<'_> {
+        let (strands, pieces) = (from.strands..to.strands, from.pieces..to.pieces);
         Part {
-            strands: &self.strands.strands[from.strands..to.strands],
-            pieces: &self.strands.pieces[from.pieces..to.pieces],
+            strands: &self.strands.strands[strands.clone()],
+            pieces: self.strands.pieces.get(pieces.clone()).unwrap_or_default(),
+            single: self.strands.single.part(strands, pieces),
         }
     }
 
     /// Least core radius [m], at least that of rounding; infinite without segments.
     #[must_use]
     pub fn least_core(&self) -> f64 {
-        self.strands.pieces.iter().fold(f64::INFINITY, |least, piece| least.min(piece.core_sq)).sqrt()
+        self.strands.least_core_sq.sqrt()
     }
 
     /// Everything.
@@ -74,23 +80,30 @@ impl Sources {
 
 impl<'a> Part<'a> {
     pub(super) fn of(strands: &'a Strands) -> Self {
-        Self { strands: &strands.strands, pieces: &strands.pieces }
+        let single = strands.single.part(0..strands.strands.len(), 0..strands.n_pieces);
+        Self { strands: &strands.strands, pieces: &strands.pieces, single }
     }
 
     /// Number of segments.
     #[must_use]
     pub fn len(&self) -> usize {
-        self.pieces.len()
+        self.single.map_or(self.pieces.len(), |single| single.len())
     }
 
     /// Whether there is no segment.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.pieces.is_empty()
+        self.len() == 0
     }
 }
 
 impl Group<'_> {
+    /// Whether all that is seen was packed for sums in single precision.
+    #[must_use]
+    pub fn is_single(&self) -> bool {
+        self.sources.iter().all(|part| part.single.is_some())
+    }
+
     /// Evaluations of a segment at a point.
     #[must_use]
     pub fn evaluations(&self) -> u64 {

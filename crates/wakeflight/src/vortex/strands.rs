@@ -1,6 +1,7 @@
 //! Sources of induced velocity, packed in the order the sum visits them.
 
 use super::core::{END_GUARD, LEAST_CORE};
+use super::single::SingleStrands;
 
 /// One segment as the sum reads it, ending where the next of its strand starts.
 #[derive(Clone, Copy, Debug)]
@@ -32,33 +33,72 @@ pub(super) struct Strand {
     pub n_pieces: usize,
 }
 
+/// What the segments of a sum are packed for; a unit of length [m] for single precision.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Packing {
+    /// Sums in double precision.
+    #[default]
+    Double,
+    /// Sums in single precision alone.
+    Single(f64),
+    /// Either.
+    Both(f64),
+}
+
 /// All sources of one sum.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(super) struct Strands {
     /// Strands in their order.
     pub strands: Vec<Strand>,
-    /// Pieces of all strands, one strand after the other.
+    /// Pieces of all strands, one strand after the other; none where they are packed for single precision alone.
     pub pieces: Vec<Piece>,
-    /// Whether the next piece starts a strand, wherever it begins.
-    cut: bool,
+    /// The same in single precision, where it is asked for.
+    pub single: SingleStrands,
+    /// Number of pieces, in whatever precision.
+    pub n_pieces: usize,
+    /// Least square of a core radius [m2], at least that of rounding.
+    pub least_core_sq: f64,
+    in_double: bool,
+    /// Where the last piece ends; none where the next starts a strand, wherever it begins.
+    end: Option<[f64; 3]>,
+}
+
+impl Default for Strands {
+    fn default() -> Self {
+        Self {
+            strands: Vec::new(),
+            pieces: Vec::new(),
+            single: SingleStrands::default(),
+            n_pieces: 0,
+            least_core_sq: f64::INFINITY,
+            in_double: true,
+            end: None,
+        }
+    }
 }
 
 impl Strands {
-    /// With room for `n_segments`.
+    /// In double precision, with room for `n_segments`.
     pub fn with_capacity(n_segments: usize) -> Self {
-        Self { strands: Vec::new(), pieces: Vec::with_capacity(n_segments), cut: false }
+        Self { pieces: Vec::with_capacity(n_segments), ..Self::default() }
     }
 
     /// Without sources; room is kept.
-    pub fn clear(&mut self) {
+    pub fn clear(&mut self, packing: Packing) {
+        let (in_double, unit) = match packing {
+            Packing::Double => (true, None),
+            Packing::Single(unit) => (false, Some(unit)),
+            Packing::Both(unit) => (true, Some(unit)),
+        };
         self.strands.clear();
         self.pieces.clear();
-        self.cut = false;
+        self.single.clear(unit);
+        (self.n_pieces, self.least_core_sq, self.in_double, self.end) = (0, f64::INFINITY, in_double, None);
     }
 
     /// Ends the last strand.
     pub fn cut(&mut self) {
-        self.cut = true;
+        self.end = None;
     }
 
     /// Appends a segment; it continues the last strand where it starts at that strand's end.
@@ -70,15 +110,27 @@ impl Strands {
         core_radius: f64,
         coreless: bool,
     ) {
-        match (self.strands.last_mut(), self.pieces.last()) {
-            (Some(strand), Some(last)) if last.end == start && !self.cut => strand.n_pieces += 1,
-            _ => self.strands.push(Strand { start, n_pieces: 1 }),
-        }
-        self.cut = false;
+        let new_strand = match self.strands.last_mut() {
+            Some(strand) if self.end == Some(start) => {
+                strand.n_pieces += 1;
+                false
+            }
+            _ => {
+                self.strands.push(Strand { start, n_pieces: 1 });
+                true
+            }
+        };
+        self.end = Some(end);
+        self.n_pieces += 1;
+        self.single.push([start, end], circulation, core_radius, new_strand);
         let along = [end[0] - start[0], end[1] - start[1], end[2] - start[2]];
         let length_sq = along[0] * along[0] + along[1] * along[1] + along[2] * along[2];
         let least_sq = LEAST_CORE * LEAST_CORE * length_sq;
         let core_sq = if coreless { least_sq } else { least_sq.max(core_radius * core_radius) };
+        self.least_core_sq = self.least_core_sq.min(core_sq);
+        if !self.in_double {
+            return;
+        }
         let area = core_sq * length_sq;
         self.pieces.push(Piece {
             end,

@@ -73,6 +73,16 @@ choices! {
 }
 
 choices! {
+    /// Numbers that the vortices are summed in.
+    pub enum Precision {
+        /// Double precision.
+        Double = "double",
+        /// Single precision, error about 1e-6 of the largest velocity; double where the tree sums, and at points asked for.
+        Single = "single",
+    }
+}
+
+choices! {
     /// Unknown that the stencils of the time-marching wake act on.
     pub enum Form {
         /// Displacement of a marker from the place of its release.

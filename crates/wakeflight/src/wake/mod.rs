@@ -30,7 +30,7 @@ mod vectors;
 pub mod velocity_field;
 
 pub use choices::{
-    CoreDistance, Evaluation, FarWake, Form, InboardWake, Predictor, Scheme, ShedWake, Summation,
+    CoreDistance, Evaluation, FarWake, Form, InboardWake, Precision, Predictor, Scheme, ShedWake, Summation,
     TipStrength, Trailers,
 };
 pub use circulation::{CirculationSolution, Route, solve_circulation};

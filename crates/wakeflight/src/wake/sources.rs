@@ -1,12 +1,12 @@
 //! The vortices of a rotor and its wake packed for the sum, and what each blade sees of them.
 
-use super::choices::Trailers;
+use super::choices::{Precision, Trailers};
 use super::instant::RotorInstant;
 use super::lattice::{Viewer, bound, push_filament, push_shed};
 use super::options::WakeOptions;
 use super::sink::Sink;
 use crate::vortex::induced_velocity::Segments;
-use crate::vortex::sources::{Mark, Part, Sources};
+use crate::vortex::sources::{Mark, Packing, Part, Sources};
 
 /// What trails, what is shed, what an inboard sheet holds and what is bound: in this order, each blade by blade.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -101,7 +101,7 @@ impl WakeSources {
         if self.is_floored {
             pack_all(&mut self.floored, &mut self.marks, options, instant, floor);
         }
-        self.own.clear();
+        self.own.clear(options.packing(false));
         self.own_marks.clear();
         for blade in 0..options.rotor.n_blades {
             for kind in KINDS {
@@ -145,7 +145,22 @@ fn pack_all(
     instant: &RotorInstant,
     floor: f64,
 ) {
-    to.clear();
+    push_all(to, marks, options, instant, floor, options.packing(false));
+    let (n_markers, n_segments) = (instant.free.position.len(), to.whole().len());
+    if options.precision == Precision::Single && options.method().tree(n_markers, n_segments).is_some() {
+        push_all(to, marks, options, instant, floor, options.packing(true));
+    }
+}
+
+fn push_all(
+    to: &mut Sources,
+    marks: &mut Vec<Mark>,
+    options: &WakeOptions,
+    instant: &RotorInstant,
+    floor: f64,
+    packing: Packing,
+) {
+    to.clear(packing);
     marks.clear();
     for kind in KINDS {
         for blade in 0..options.rotor.n_blades {

@@ -1,6 +1,6 @@
 //! Velocity of the air relative to the hub axes: every vortex of the rotor at one instant, and the wind.
 
-use super::choices::CoreDistance;
+use super::choices::{CoreDistance, Precision};
 use super::error::{WakeError, finite};
 use super::far_cylinder::far_cylinder;
 use super::filament::Filaments;
@@ -13,6 +13,7 @@ use crate::vortex::core::Core;
 use crate::vortex::curvature::curvature_velocity;
 use crate::vortex::cylinder::VortexCylinder;
 use crate::vortex::induced_velocity::add_groups_velocity;
+use crate::vortex::single;
 use crate::vortex::sources::{Group, Part};
 use crate::vortex::tree::{Method, add_part_velocity_by};
 use serde::{Deserialize, Serialize};
@@ -75,7 +76,11 @@ impl InducedVelocity for VortexSegments {
                 _ => direct.push(Group { points, sources, velocity }),
             }
         }
-        add_groups_velocity(&mut direct, core, distance);
+        if direct.iter().all(Group::is_single) {
+            single::add_groups_velocity(&mut direct, distance);
+        } else {
+            add_groups_velocity(&mut direct, core, distance);
+        }
         evaluations + direct.iter().map(Group::evaluations).sum::<u64>()
     }
 
@@ -273,7 +278,8 @@ fn add_self_induced<F: InducedVelocity>(field: &F, free: &Filaments, velocity: &
     }
 }
 
-/// Velocity induced by rotor and wake at `points` [m/s, `_h`]; bound vortices included, near-wake trailers not.
+/// Velocity induced by rotor and wake at `points` [m/s, `_h`], in double precision; bound vortices included, near-wake
+/// trailers not.
 pub fn point_velocity<F: InducedVelocity>(
     field: &F,
     options: &WakeOptions,
@@ -282,7 +288,7 @@ pub fn point_velocity<F: InducedVelocity>(
 ) -> Vec<[f64; 3]> {
     let mut velocity = vec![[0.0; 3]; points.len()];
     let mut sources = WakeSources::default();
-    sources.pack(options, instant, false);
+    sources.pack(&WakeOptions { precision: Precision::Double, ..*options }, instant, false);
     let whole = [sources.whole()];
     let mut groups = [Group { points, sources: &whole, velocity: &mut velocity }];
     field.add(&mut groups);

@@ -228,12 +228,18 @@ impl MarchingExchange {
         self.blades.clear();
         self.blades.extend_from_slice(blades);
         self.states.clear();
-        self.near_wakes.clear();
-        for blade in blades {
+        self.states.extend(blades.iter().map(|blade| {
             let (flap, lead) = rotor.equivalent_angles(&blade.modal);
-            let state = BladeState { psi: blade.psi, flap, lead };
-            self.near_wakes.push(rotor.near_wake(self.wake.options(), hub, &state)?);
-            self.states.push(state);
+            BladeState { psi: blade.psi, flap, lead }
+        }));
+        let mut near_wakes: Vec<Option<Result<NearWake, WakeError>>> = blades.iter().map(|_| None).collect();
+        let options = self.wake.options();
+        share(self.states.iter().zip(&mut near_wakes), |(state, near)| {
+            *near = Some(rotor.near_wake(options, hub, state));
+        });
+        self.near_wakes.clear();
+        for near in near_wakes.into_iter().flatten() {
+            self.near_wakes.push(near?);
         }
         Ok(())
     }

@@ -10,7 +10,7 @@ use super::rotor::WakeRotor;
 use crate::airfoil::unsteady::Model as Unsteady;
 use crate::vortex::tree::DEFAULT_TOLERANCE;
 use crate::wake::choices::{
-    CoreDistance, Evaluation, FarWake, Form, InboardWake, Predictor, Scheme, ShedWake, Summation,
+    CoreDistance, Evaluation, FarWake, Form, InboardWake, Precision, Predictor, Scheme, ShedWake, Summation,
     TipStrength, Trailers,
 };
 use std::f64::consts::TAU;
@@ -125,6 +125,9 @@ declare! {
 
         /// Sum of the vortices at the markers: by the tree where it is faster (large wakes), or always direct or tree.
         summation: Summation = always(Summation::Auto);
+
+        /// Numbers that the vortices are summed in at markers and blades: double precision, or single precision.
+        precision: Precision = always(Precision::Single);
 
         /// Error allowed of the tree, over the largest induced velocity at the markers.
         tree_tolerance: f64 = always(DEFAULT_TOLERANCE), between(1e-12, 0.1);

@@ -3,8 +3,9 @@
 use super::declared::{MarchingOptions, RelaxationOptions, WakeOptions};
 use super::describe::short;
 use super::rotor::WakeRotor;
+use crate::vortex::sources::Packing;
 use crate::vortex::tree::Method;
-use crate::wake::choices::{FarWake, Form, InboardWake, ShedWake, Summation, Trailers};
+use crate::wake::choices::{FarWake, Form, InboardWake, Precision, ShedWake, Summation, Trailers};
 use crate::wake::error::WakeError;
 use std::f64::consts::TAU;
 
@@ -52,9 +53,8 @@ pub fn check_azimuth_step(step: f64, n_blades: usize) -> Result<(), WakeError> {
 }
 
 impl WakeOptions {
-    /// Options of a rotor with a lone tip vortex (made full-span, with trailers at every edge), every other numerical
-    /// parameter at its default in forward flight; lengths
-    /// in m, `omega` in rad/s.
+    /// Options of a rotor with a lone tip vortex (made full-span, with trailers at every edge) summed in double precision, every
+    /// other numerical parameter at its default in forward flight; lengths in m, `omega` in rad/s.
     pub fn new(
         n_blades: usize,
         radius: f64,
@@ -69,6 +69,7 @@ impl WakeOptions {
             trailers: Trailers::Tip,
             n_trailers: 0,
             far_wake_turns: 0,
+            precision: Precision::Double,
             ..WakeOptions::default()
         }
     }
@@ -80,6 +81,15 @@ impl WakeOptions {
             Summation::Auto => Method::Auto { tolerance },
             Summation::Direct => Method::Direct,
             Summation::Tree => Method::Tree { tolerance },
+        }
+    }
+
+    /// What the vortices are packed for; the tree, where it sums at the markers, does so in double precision.
+    pub(crate) fn packing(&self, by_tree: bool) -> Packing {
+        match self.precision {
+            Precision::Double => Packing::Double,
+            Precision::Single if by_tree => Packing::Both(self.rotor.radius),
+            Precision::Single => Packing::Single(self.rotor.radius),
         }
     }
 
