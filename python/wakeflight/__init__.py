@@ -36,7 +36,7 @@ if TYPE_CHECKING:
         from_control,
         load_control,
     )
-    from .errors import InputError, Interrupted, NumericalFailure, StorageFailure, WakeflightError
+    from .errors import GroundContact, InputError, Interrupted, NumericalFailure, StorageFailure, WakeflightError
     from .export import export, export_wopwop
     from .file_schemas import file_schema
     from .flight import Flight, fly
@@ -53,6 +53,7 @@ if TYPE_CHECKING:
     from .trim import Trim, trim
     from .tunnel import Tunnel, tunnel
     from .vortex import induced_velocity
+    from .wind import Dryden, Gust, SteadyWind, VonKarman, Wind, WindField
     from .wing import Wing, wing
 
 _HOME = {
@@ -80,6 +81,7 @@ _HOME = {
     "converge": "studies.converge",
     "InputError": "errors",
     "Interrupted": "errors",
+    "GroundContact": "errors",
     "NumericalFailure": "errors",
     "StorageFailure": "errors",
     "WakeflightError": "errors",
@@ -142,6 +144,7 @@ __all__ = [
     "FlightCondition",
     "FreeEngine",
     "GovernedEngine",
+    "GroundContact",
     "Gust",
     "HandlingQualities",
     "Hands",
