@@ -24,7 +24,16 @@ SECTIONS: tuple[tuple[str, str, tuple[str, ...]], ...] = (
     (
         "How to",
         "guides/",
-        ("case-files.md", "own-maneuver.md", "aircraft-files.md", "stand.md", "sweeps.md", "stepping.md", "wind.md"),
+        (
+            "case-files.md",
+            "own-maneuver.md",
+            "aircraft-files.md",
+            "stand.md",
+            "sweeps.md",
+            "stepping.md",
+            "wind.md",
+            "ground.md",
+        ),
     ),
     ("Examples", "examples/", ()),
     ("Physics", "physics/", ("conventions.md",)),

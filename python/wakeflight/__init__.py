@@ -37,7 +37,7 @@ if TYPE_CHECKING:
         load_control,
     )
     from .engine import Engine, FreeEngine, GovernedEngine
-    from .errors import InputError, Interrupted, NumericalFailure, StorageFailure, WakeflightError
+    from .errors import GroundContact, InputError, Interrupted, NumericalFailure, StorageFailure, WakeflightError
     from .export import export, export_wopwop
     from .file_schemas import file_schema
     from .flight import Flight, fly
@@ -56,6 +56,7 @@ if TYPE_CHECKING:
     from .trim import Trim, trim
     from .tunnel import Tunnel, tunnel
     from .vortex import induced_velocity
+    from .wind import Dryden, Gust, SteadyWind, VonKarman, Wind, WindField
     from .wing import Wing, wing
 
     __version__: str
@@ -91,6 +92,7 @@ _HOME = {
     "sweep": "sweep",
     "InputError": "errors",
     "Interrupted": "errors",
+    "GroundContact": "errors",
     "NumericalFailure": "errors",
     "StorageFailure": "errors",
     "WakeflightError": "errors",
@@ -158,6 +160,7 @@ __all__ = [
     "FlightCondition",
     "FreeEngine",
     "GovernedEngine",
+    "GroundContact",
     "Gust",
     "HandlingQualities",
     "Hands",

@@ -29,6 +29,7 @@ _RANGES = {
     "sideslip": ("rad", -math.pi, math.pi, "deg"),
     "turn_rate": ("rad/s", -math.pi / 2, math.pi / 2, "deg/s"),
     "bank": ("rad", -math.radians(85.0), math.radians(85.0), "deg"),
+    "height": ("m", 0.0, 1000.0, "m"),
 }
 _MASS = (10.0, 1e5)
 _LOAD_FACTOR = (1.0, 5.0)
@@ -77,6 +78,7 @@ class FlightCondition:
     load_factor: resultant of all loads but gravity over the weight, from 1 on, a plain number; trim finds the rate of the turn,
     `turn` = `right` or `left`, in which it is n = sqrt(1 + (turn_rate speed cos(flight_path)/g)^2). In a level turn without
     sideslip it is lift over weight, and 1/cos(bank) but for side forces.
+    height [m]: of the main rotor's hub above flat ground where the flight begins, the airframe level; not given, no ground.
     """
 
     speed: float | None
@@ -90,6 +92,7 @@ class FlightCondition:
     bank_share: float | None
     load_factor: float | None
     turn: str | None
+    height: float | None
 
     @checked
     def __init__(
@@ -104,6 +107,7 @@ class FlightCondition:
         heading: str | None = None,
         load_factor: float | None = None,
         turn: str | None = None,
+        height: Any = None,
     ) -> None:
         """Read and check what is given: text with units, or pint quantities."""
         given = {
@@ -113,6 +117,7 @@ class FlightCondition:
             "sideslip": sideslip,
             "turn_rate": turn_rate,
             "bank": bank,
+            "height": height,
         }
         for name, value in given.items():
             number = None if value is None else _in_range(name, value)

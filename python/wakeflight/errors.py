@@ -71,6 +71,10 @@ class NumericalFailure(WakeflightError, RuntimeError):
         self.partial = partial
 
 
+class GroundContact(NumericalFailure):
+    """A flight that ends on the ground: its origin, tail rotor or a tail surface has reached it."""
+
+
 class StorageFailure(WakeflightError):
     """Something that could not be written: which file and why; what had been written before is whole."""
 

@@ -79,11 +79,12 @@ class Exchange:
 
         stick, stick_rate: controls as the trim has them; a rotor on a stand has no use for the fourth. motion: modal coordinates
         and rates (n_blades, n_modes) that stand for those of `y`. flown: end and begin of the step [s] and what acted at its
-        end; None: a step of azimuth at the nominal speed. air: wind there; that at the hub carries the wake.
+        end; None: a step of azimuth at the nominal speed. air: wind where a step was flown; that at the hub carries the wake.
         """
         n = self.model.n_controls
         wind = None if air is None else (air.at_hub, air.stations)
-        self.core.advance(self.model.core, step, y, (stick[:n], stick_rate[:n]), motion, flown, wind)
+        step_flown = None if flown is None else (*flown, wind)
+        self.core.advance(self.model.core, step, y, (stick[:n], stick_rate[:n]), motion, step_flown)
 
     def remembering(self, inputs: _core.Inputs, begun: float) -> _core.Inputs:
         """`inputs` of the step that begins at `begun` [s], with what the sections remember there."""

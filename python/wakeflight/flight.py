@@ -14,7 +14,7 @@ import numpy as np
 from .arguments import checked
 from .control import augmentation
 from .engine import Engine, planned
-from .errors import InputError, Interrupted, NumericalFailure
+from .errors import GroundContact, InputError, Interrupted, NumericalFailure
 from .flight_folder import Kept, RunFolder
 from .flight_input import Asked, FlightInput, Plan
 from .flight_monitors import monitors
@@ -243,7 +243,7 @@ class Flying:
         sticks = Sticks(self.maneuver, self.start.stick_si)
         per_revolution = sim.model.steps_per_revolution
         progress.phase("flight", (n_steps - sim.steps) / per_revolution)
-        failure, signalled = None, None
+        failure, signalled, ending = None, None, NumericalFailure
         try:
             with deferred():
                 while sim.steps < n_steps and signalled is None:
@@ -254,6 +254,8 @@ class Flying:
                     signalled = asked()
             if signalled is None:
                 recorder.record(sim.last(sticks))
+        except GroundContact as reason:
+            failure, ending = f"flight of {self.maneuver.name} ended: {reason}", GroundContact
         except (NumericalFailure, ArithmeticError, np.linalg.LinAlgError) as reason:
             revolution = (recorder.n_recorded - 1) / per_revolution
             failure = f"flight of {self.maneuver.name} stopped in revolution {revolution:.2f}: {reason}"
@@ -271,7 +273,7 @@ class Flying:
         if signalled is not None:
             raise Interrupted(failure or "", signalled, partial=flight)
         if failure is not None:
-            raise NumericalFailure(failure, partial=flight)
+            raise ending(failure, partial=flight)
         return flight
 
     def _recorder(self, folder: RunFolder | None, kept: Kept | None) -> Recorder:

@@ -140,6 +140,10 @@ class Inflow:
         found = resolved({field.name: getattr(self, field.name) for field in fields(self)}, regime)
         return replace(self, **found) if found else self
 
+    def above_ground(self) -> Self:
+        """This model near the ground."""
+        return self
+
     def as_attributes(self) -> dict[str, Any]:
         """Options by name, angles [rad], for the attributes of a result."""
         return {field.name: getattr(self, field.name) for field in fields(self)}
@@ -232,6 +236,12 @@ class FreeWake(Inflow):
             "omega": float(rotor.omega),
         }
         return _checked(given)
+
+    def above_ground(self) -> Self:
+        """This model near the ground, which a far wake of repeated turns ends in and a cylinder would pass."""
+        if self.far_wake != "repeat":
+            raise InputError.of("far_wake", self.far_wake, "must be repeat above ground")
+        return self
 
 
 def _grouped(model: str, values: dict[str, Any]) -> dict[str, dict[str, Any]]:

@@ -275,11 +275,15 @@ class Model(CompiledRotor):
         """
         density, speed_of_sound, _ = _core.standard_atmosphere(condition.altitude)
         data = aircraft.core_data(condition)
+        if condition.height is not None:
+            inflow = inflow.above_ground()
         inflow = inflow.resolved(flight_regime(aircraft, condition))
         inflow.step(aircraft)
         resolved = resolution(aircraft.discretisation, inflow.n_stations)
         chosen = setting((density, speed_of_sound), not inflow.is_dynamic, resolved, **inflow.sections)
         core = _core.System.aircraft(json.dumps(data), chosen)
+        if condition.height is not None:
+            core = core.above_ground(condition.height)
         return cls(aircraft, condition, inflow, core, data, density, speed_of_sound, target, n_harmonics)
 
     @property

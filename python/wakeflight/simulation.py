@@ -23,7 +23,7 @@ from .arguments import checked
 from .attitude import body_to_inertial, euler_angles
 from .control import Augmentation, Chain, Sensors, augmentation
 from .engine import Engine, Turning, turning
-from .errors import InputError, NumericalFailure, known
+from .errors import GroundContact, InputError, NumericalFailure, known
 from .exchange import Exchange, exchange_of
 from .inflow import InflowModel, inflow_model, like
 from .integrators import INTEGRATORS, RTOL
@@ -209,6 +209,11 @@ class Simulation(Stepping):
         """The clock follows the rotor, the engines it and the stick, the wind where all are."""
         self._follow_rotor(t)
         self._blow()
+        height = self.model.core.least_height(self._y)
+        if height is not None and height < 0.0:
+            raise GroundContact(
+                f"contact with the ground at t = {t:.4f} s, {self.state.velocity[2]:.2f} m/s down in body axes"
+            )
 
     def _follow_rotor(self, t: float) -> None:
         if self.engine is None:
@@ -438,6 +443,8 @@ def _trimmed_model(start: Trim, inflow: str | InflowModel | None) -> Model:
     if isinstance(inflow, str):
         chosen = trimmed if trimmed.name == chosen.name else like(type(chosen), trimmed)
     regime = flight_regime(start.aircraft, start.condition)
+    if start.condition.height is not None:
+        chosen = chosen.above_ground()
     chosen = chosen.resolved(regime)
     chosen.check_on(start.aircraft)
     for name, before, now in chosen.unlike(trimmed.resolved(regime), start.aircraft):

@@ -202,7 +202,7 @@ def test_wrong_threads_in_the_environment_are_refused(capsys, monkeypatch):
 def test_a_checked_request_is_handed_on(monkeypatch, tmp_path):
     seen = {}
 
-    def record(request, revolutions, integrator, out, progress, every, rotor_speed):
+    def record(request, revolutions, integrator, out, progress, every, rotor_speed, wind):
         seen.update(request=request, revolutions=revolutions, integrator=integrator, out=out)
 
     monkeypatch.setattr(outcome, "fly_once", record)
@@ -348,7 +348,7 @@ figures = false
 def test_a_case_file_asks_for_what_its_options_would(capsys, monkeypatch, tmp_path):
     seen = {}
 
-    def record(request, revolutions, integrator, out, progress, every, rotor_speed):
+    def record(request, revolutions, integrator, out, progress, every, rotor_speed, wind):
         seen.update(request=request, integrator=integrator, out=out)
 
     monkeypatch.setattr(outcome, "fly_once", record)

@@ -75,10 +75,11 @@ impl PySystem {
         sized(name, y, self.inner.layout.len())
     }
 
-    /// Rotor and air, with a motion of the hub, at the nominal speed.
-    pub fn place<'a>(&'a self, hub: &'a HubMotion<f64>) -> Place<'a> {
-        let rotor = self.inner.main();
-        Place { rotor, air: self.inner.air, hub, turning: Turning::steady(rotor.omega), gust: &[] }
+    /// Rotor, air and ground at `y`, with a motion of the hub, at the nominal speed.
+    pub fn place<'a>(&'a self, hub: &'a HubMotion<f64>, y: &Row) -> PyResult<Place<'a>> {
+        let (rotor, ground) = (self.inner.main(), self.inner.ground_plane(self.state("y", y)?));
+        let turning = Turning::steady(rotor.omega);
+        Ok(Place { rotor, air: self.inner.air, hub, turning, gust: &[], ground })
     }
 
     /// Motion of the hub at `y`.

@@ -42,7 +42,8 @@ impl PySteadyWake {
     ) -> PyResult<()> {
         let (hub, motions) = (core.hub_at(&y)?, core.motions(&motion, self.0.n_azimuths())?);
         let blades = core.inner.periodic_blades(&motions, core.controls("stick", &stick)?);
-        py.detach(|| self.0.converge(&core.place(&hub), &blades, most)).map_err(py_error)?;
+        let place = core.place(&hub, &y)?;
+        py.detach(|| self.0.converge(&place, &blades, most)).map_err(py_error)?;
         Ok(())
     }
 
@@ -191,10 +192,9 @@ impl PyExchange {
     }
 
     /// States `y` and `sticks`, with their rates, have reached `step`: the air answers. `motion`: modal coordinates and rates
-    /// (n_blades, n_modes) that stand for those of `y`. `flown`: end and begin of the step [s] and what acted at its end; a step of
-    /// azimuth at the nominal speed where nothing was flown. `wind`: at the hub [m/s], inertial axes, and at the stations beyond it as
-    /// inflow.
-    #[pyo3(signature = (core, step, y, sticks, motion=None, flown=None, wind=None))]
+    /// (n_blades, n_modes) that stand for those of `y`. `flown`: end and begin of the step [s], what acted at its end, and the wind
+    /// there; a step of azimuth at the nominal speed in still air where nothing was flown.
+    #[pyo3(signature = (core, step, y, sticks, motion=None, flown=None))]
     fn advance(
         &mut self,
         core: &PySystem,
@@ -202,11 +202,10 @@ impl PyExchange {
         y: Row,
         sticks: (Row, Row),
         motion: Option<Motion>,
-        flown: Option<(f64, f64, PyRef<PyInputs>)>,
-        wind: Option<WindAtRotor>,
+        flown: Option<(f64, f64, PyRef<PyInputs>, Option<WindAtRotor>)>,
     ) -> PyResult<()> {
         if let Exchange::Dynamic(memory) = &mut self.inner {
-            if let (Some((t, _, inputs)), false) = (&flown, memory.is_empty()) {
+            if let (Some((t, _, inputs, _)), false) = (&flown, memory.is_empty()) {
                 let y = core.state("y", &y)?;
                 let still = vec![0.0; y.len()];
                 let at = Instant { t: *t, y, y_dot: &still, inputs: inputs.fitting(core)? };
@@ -228,15 +227,18 @@ impl PyExchange {
         let blades = &system.blades_after((step, n), &motions, &controls);
         let renewed = self.inner.renews(step);
         let steady_pitch = &if renewed { system.steady_pitch(n, &controls) } else { Vec::new() };
-        let mut gust = Vec::new();
+        let (mut gust, mut elapsed) = (Vec::new(), system.main().nominal_step(n));
+        let mut wind = None;
+        if let Some((end, begun, _, air)) = flown {
+            (elapsed, wind) = (end - begun, air);
+        }
         if let Some((at_hub, stations)) = wind {
             hub = system.carrier.hub_in_wind(hub, (system.main(), core.state("y", &y)?), at_hub);
             if let Some(rows) = stations {
                 gust = map("wind", &rows, found, system.main().blade.stations.len())?;
             }
         }
-        let elapsed = flown.map_or_else(|| system.main().nominal_step(n), |(end, begun, _)| end - begun);
-        let place = Place { turning, gust: &gust, ..core.place(&hub) };
+        let place = Place { turning, gust: &gust, ..core.place(&hub, &y)? };
         let reached = Reached { place, blades, steady_pitch, elapsed };
         y.py().detach(|| self.inner.advance(step, &reached)).map_err(py_error)
     }
@@ -254,7 +256,8 @@ impl PyExchange {
         let (n, hub) = (self.n, core.hub_at(&y)?);
         let blades = core.inner.periodic_blades(&core.motions(&motion, n)?, core.controls("stick", &stick)?);
         let wake = self.inner.marching_mut().ok_or_else(no_marching)?;
-        let (inflow, circulation) = py.detach(|| wake.turn(&core.place(&hub), &blades)).map_err(py_error)?;
+        let place = core.place(&hub, &y)?;
+        let (inflow, circulation) = py.detach(|| wake.turn(&place, &blades)).map_err(py_error)?;
         Ok((array(inflow, &[n]), array(circulation, &[n])))
     }
 

@@ -19,7 +19,7 @@ pub fn pitt_peters_rate(
 ) -> PyResult<[f64; 3]> {
     let model: PittPeters = serde_json::from_str(model_json).map_err(invalid)?;
     let [ct, cl, cm, mu_x, mu_y, mu_z] = disk;
-    Ok(model.inflow_dot(inflow, DiskCondition { ct, cl, cm, mu_x, mu_y, mu_z }, omega))
+    Ok(model.inflow_dot(inflow, DiskCondition { ct, cl, cm, mu_x, mu_y, mu_z, height: None }, omega))
 }
 
 /// Mean induced inflow of momentum theory at `ct`, squared in-plane advance ratio and velocity down along the shaft; of

@@ -155,6 +155,16 @@ impl PySystem {
         Ok(Self { inner })
     }
 
+    /// The same system above flat ground, its first hub, with the airframe level, at `height` [m] where a flight begins.
+    fn above_ground(&self, height: f64) -> Self {
+        Self { inner: self.inner.clone().above_ground(height) }
+    }
+
+    /// Least height above ground [m] of the places of the airframe at `y`; None without ground.
+    fn least_height(&self, y: Row) -> PyResult<Option<f64>> {
+        Ok(self.inner.least_height(self.state("y", &y)?))
+    }
+
     /// The same system, its first rotor turned by a drive, from its JSON: azimuth and speed are states.
     fn with_drive(&self, drive_json: &str) -> PyResult<Self> {
         let drive: Drive = serde_json::from_str(drive_json).map_err(invalid)?;

@@ -66,7 +66,8 @@ impl Relaxed {
         let map = vec![0.03; n * options.n_stations];
         let mut steady = SteadyWake::new(options, RelaxationOptions::default(), false, system.main(), map);
         let turning = Turning::steady(system.main().omega);
-        let place = Place { rotor: system.main(), air: system.air, hub: &hub, turning, gust: &[] };
+        let place =
+            Place { rotor: system.main(), air: system.air, hub: &hub, turning, gust: &[], ground: None };
         steady.converge(&place, &blades, 5).unwrap();
         Self { system, options, blades, hub, steady }
     }
@@ -102,7 +103,14 @@ fn the_sheet_is_carried_by_the_thrust_of_the_blades() {
 fn the_exchange_adds_nothing_to_the_wake_that_stands_alone() {
     let Relaxed { system, options, blades, hub, steady } = Relaxed::new();
     let (rotor, n) = (system.main(), options.steps_per_revolution());
-    let place = Place { rotor, air: system.air, hub: &hub, turning: Turning::steady(rotor.omega), gust: &[] };
+    let place = Place {
+        rotor,
+        air: system.air,
+        hub: &hub,
+        turning: Turning::steady(rotor.omega),
+        gust: &[],
+        ground: None,
+    };
     let start = steady.wake.as_ref().unwrap();
     let marching = || TimeMarchingWake::from_relaxation(start, 0, MarchingOptions::default()).unwrap();
     let (mut exchange, mut alone) = (MarchingExchange::new(marching(), &steady, rotor), marching());

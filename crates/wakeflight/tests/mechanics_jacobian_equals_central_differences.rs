@@ -105,6 +105,7 @@ fn cases(smooth: bool) -> Vec<(System, Inputs, &'static str)> {
         (build(&tandem(&data), false, 9.80665), both, "two rotors, the second clockwise"),
         (on_stand(&data, false), moving.clone(), "a stand, dynamic inflow"),
         (changing_speed(dynamic.clone(), 0.8, 0.3), moving.clone(), "rotor speed falling"),
+        (dynamic.clone().above_ground(9.0), moving.clone(), "above ground"),
         (dynamic.clone(), windy.clone(), "a gust"),
         (
             driven(dynamic.clone(), true),

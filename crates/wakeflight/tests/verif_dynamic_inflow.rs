@@ -7,7 +7,15 @@ use wakeflight::numerics::scalar::{Dual, Real};
 
 fn disk<S: Real>(ct: f64, mu: f64, mu_z: f64) -> DiskCondition<S> {
     let c = S::cst;
-    DiskCondition { ct: c(ct), cl: c(0.0), cm: c(0.0), mu_x: c(mu), mu_y: c(0.0), mu_z: c(mu_z) }
+    DiskCondition {
+        ct: c(ct),
+        cl: c(0.0),
+        cm: c(0.0),
+        mu_x: c(mu),
+        mu_y: c(0.0),
+        mu_z: c(mu_z),
+        height: None,
+    }
 }
 
 /// -M^-1 V L^-1 per rotor radian: the model's derivative with the mass flow of momentum theory.

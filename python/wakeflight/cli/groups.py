@@ -158,6 +158,7 @@ class Condition(Straight):
         None
     )
     turn: Annotated[str | None, told("--turn", "direction of that turn: right, left", "right")] = None
+    height: Annotated[str | None, told("--height", 'of the hub above flat ground, "30 ft"', "no ground")] = None
 
 
 @dataclass(frozen=True)

@@ -6,6 +6,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, fields
+from functools import cached_property
 from typing import Any, ClassVar
 
 import numpy as np
@@ -25,6 +26,11 @@ class Wind:
     """Name in files."""
     carried: ClassVar[bool] = False
     """Whether a steady wind beside it carries it along."""
+
+    @property
+    def uniform(self) -> bool:
+        """Whether it is the same at all points."""
+        return False
 
     def __call__(self, points: np.ndarray, t: float) -> np.ndarray:
         """Velocity of the air (n, 3) [m/s] at `points` (n, 3) [m] and time `t` [s], north, east, down."""
@@ -66,7 +72,7 @@ class SteadyWind(Told):
         """Check."""
         _ = self.velocity
 
-    @property
+    @cached_property
     def velocity(self) -> np.ndarray:
         """North, east, down (3,) [m/s]."""
         speed, angle = quantity(self.speed, "m/s", "wind speed"), quantity(self.from_, "rad", "wind from_")
@@ -74,6 +80,11 @@ class SteadyWind(Told):
         if speed < 0.0 or np.linalg.norm(found) > STRONGEST:
             raise InputError.of("wind speed", self.speed, f"must be between 0 and {STRONGEST:g} m/s")
         return found
+
+    @property
+    def uniform(self) -> bool:
+        """It is."""
+        return True
 
     def drift(self) -> np.ndarray:
         """It carries what is carried."""
@@ -111,6 +122,11 @@ class Winds(Wind):
     def __init__(self, *parts: Wind):
         self.parts = parts
         self._drift = np.sum([part.drift() for part in parts], axis=0)
+
+    @property
+    def uniform(self) -> bool:
+        """Whether all are."""
+        return all(part.uniform for part in self.parts)
 
     def drift(self) -> np.ndarray:
         """That of its parts."""

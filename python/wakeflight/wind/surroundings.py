@@ -68,6 +68,9 @@ class Surroundings:
     def at(self, t: float, y: np.ndarray, azimuth: float) -> Air:
         """Wind at time `t` [s] in the states `y`, the first blade at `azimuth` [rad]."""
         model = self.model
+        if self.wind.uniform:
+            (found,) = self._asked(y[None, 10:13], t)
+            return Air(found, found, self._still, None)
         to_inertial = body_to_inertial(y[6:10])
         psi = azimuth + 2 * np.pi * np.arange(model.n_blades) / model.n_blades
         # from the hub, blades drawn straight and without their flap

@@ -114,6 +114,12 @@ pub struct Parts {
 }
 
 impl Airframe {
+    /// Places that the data give: the origin, and the tail surfaces [m], body axes.
+    pub fn places(&self) -> impl Iterator<Item = [f64; 3]> {
+        let surfaces = self.stabilator.iter().chain(&self.fin).map(|surface| surface.position);
+        std::iter::once([0.0; 3]).chain(surfaces)
+    }
+
     /// Assemble; the blades' mass is taken out at the hubs.
     pub fn new(parts: Parts, blades: &[BladesAtHub]) -> Result<Self, MassError> {
         let mass = AirframeMass::new(&parts.mass, blades)?;

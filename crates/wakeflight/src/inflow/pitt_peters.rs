@@ -3,6 +3,7 @@
 //! lambda(r, psi) = lambda_0 + lambda_s r sin psi + lambda_c r cos psi, r = 1 at the tip, psi = 0 aft, down positive.
 
 use super::descent::{DescentFlow, descent_inflow};
+use super::ground::ground_factor;
 use super::momentum::TINY;
 use crate::numerics::scalar::Real;
 use serde::Deserialize;
@@ -59,6 +60,8 @@ pub struct DiskCondition<S> {
     pub mu_y: S,
     /// Down along the shaft.
     pub mu_z: S,
+    /// Height of the hub above ground over R; none out of its effect.
+    pub height: Option<S>,
 }
 
 /// Off-diagonal gain 15 pi/64 of the static matrix.
@@ -104,6 +107,11 @@ impl PittPeters {
             }
         };
 
+        // near the ground less inflow belongs to the same loads
+        let lambda_0 = match disk.height {
+            None => lambda_0,
+            Some(height) => lambda_0 / ground_factor(height, mu_squared, total),
+        };
         let skew = S::one() / (v_t + total.abs());
         let (x_c, x_s) = (disk.mu_x * skew, -disk.mu_y * skew);
         let x_squared = mu_squared * skew.squared();
@@ -136,7 +144,7 @@ mod tests {
     use crate::numerics::scalar::Dual;
 
     fn condition(ct: f64, mu_x: f64, mu_y: f64, mu_z: f64) -> DiskCondition<f64> {
-        DiskCondition { ct, cl: 0.0, cm: 0.0, mu_x, mu_y, mu_z }
+        DiskCondition { ct, cl: 0.0, cm: 0.0, mu_x, mu_y, mu_z, height: None }
     }
 
     #[test]
@@ -150,8 +158,15 @@ mod tests {
                 x[i] = Dual::variable(v, i);
             }
             let c = Dual::<3>::cst;
-            let disk =
-                DiskCondition { ct: c(ct), cl: c(0.0), cm: c(0.0), mu_x: c(0.0), mu_y: c(0.0), mu_z: c(0.0) };
+            let disk = DiskCondition {
+                ct: c(ct),
+                mu_x: c(0.0),
+                cl: c(0.0),
+                cm: c(0.0),
+                mu_y: c(0.0),
+                mu_z: c(0.0),
+                height: None,
+            };
             model.inflow_dot(x, disk, omega)
         };
         for (apparent_mass, m11) in
@@ -195,7 +210,8 @@ mod tests {
         let model = PittPeters::default();
         let (mu, beta_w) = (0.2, 0.7_f64);
         let (s, c) = beta_w.sin_cos();
-        let wind = DiskCondition { ct: 0.006, cl: 1e-4, cm: -2e-4, mu_x: mu, mu_y: 0.0, mu_z: 0.02 };
+        let wind =
+            DiskCondition { ct: 0.006, cl: 1e-4, cm: -2e-4, mu_x: mu, mu_y: 0.0, mu_z: 0.02, height: None };
         let inflow = [0.02, 0.004, 0.015];
         let reference = model.inflow_dot(inflow, wind, 27.0);
         // hub axes: azimuth in hub axes = azimuth from the wind + beta_w, the azimuth the wind blows to
@@ -211,7 +227,15 @@ mod tests {
 
     #[test]
     fn mirrored_flight_has_mirrored_inflow() {
-        let disk = DiskCondition { ct: 0.006, cl: 1e-4, cm: -2e-4, mu_x: 0.15, mu_y: 0.05, mu_z: 0.02 };
+        let disk = DiskCondition {
+            ct: 0.006,
+            cl: 1e-4,
+            cm: -2e-4,
+            mu_x: 0.15,
+            mu_y: 0.05,
+            mu_z: 0.02,
+            height: None,
+        };
         let mirror = DiskCondition { cl: -disk.cl, mu_y: -disk.mu_y, ..disk };
         let model = PittPeters::default();
         let a = model.inflow_dot([0.02, 0.004, 0.015], disk, 27.0);
@@ -250,7 +274,7 @@ mod tests {
 
     fn evaluate<S: Real>(model: PittPeters, x: [S; 9]) -> [S; 3] {
         let [a, b, c, ct, cl, cm, mu_x, mu_y, mu_z] = x;
-        model.inflow_dot([a, b, c], DiskCondition { ct, cl, cm, mu_x, mu_y, mu_z }, 27.0)
+        model.inflow_dot([a, b, c], DiskCondition { ct, cl, cm, mu_x, mu_y, mu_z, height: None }, 27.0)
     }
 
     #[test]

@@ -3,6 +3,7 @@ pub mod blades;
 pub mod carrier;
 pub mod data;
 pub mod drive;
+pub mod ground;
 pub mod input_slopes;
 pub mod instant;
 pub mod layout;

@@ -48,6 +48,8 @@ pub struct System {
     pub air: Air,
     /// Gravity [m/s2].
     pub gravity: f64,
+    /// Place of flat ground [m], down from where the flight begins; none out of its effect.
+    pub ground: Option<f64>,
     /// Layout of y.
     pub layout: Layout,
 }
@@ -111,7 +113,16 @@ impl System {
         let tails = closed.iter().map(|_| "tail".to_string()).collect();
         let layout = Layout::new(carrier.airframe().is_some(), states, tails);
         let (air, gravity) = (setting.air, setting.gravity);
-        Self { carrier, rotors, closed, pitt_peters: PittPeters::default(), air, gravity, layout }
+        Self {
+            carrier,
+            rotors,
+            closed,
+            pitt_peters: PittPeters::default(),
+            air,
+            gravity,
+            ground: None,
+            layout,
+        }
     }
 
     /// The first rotor with blades: the main rotor of a helicopter.

@@ -170,7 +170,8 @@ impl System {
                 let i = l.inflow().start;
                 let moved = (self.hub_motion(r, at.y, at.y_dot), &self.spin(r, at).turning);
                 let hub = self.felt_hub(r, at.y, at.inputs, moved).velocity;
-                let rate = self.inflow_rate(r, hub, &share.loads, [at.y[i], at.y[i + 1], at.y[i + 2]]);
+                let moved = (hub, self.hub_height(r, at.y));
+                let rate = self.inflow_rate(r, moved, &share.loads, [at.y[i], at.y[i + 1], at.y[i + 2]]);
                 for k in 0..3 {
                     f[i + k] = at.y_dot[i + k] - rate[k];
                 }

@@ -300,13 +300,14 @@ impl System {
         }
     }
 
-    /// Rate of the dynamic inflow states lambda_0, lambda_s, lambda_c [1/s] of rotor `r` with its hub at `velocity`.
+    /// Rate of the dynamic inflow states lambda_0, lambda_s, lambda_c [1/s] of rotor `r` with its hub at `velocity`, and at `height` above ground
+    /// [m].
     ///
     /// All at the nominal speed: times (omega R)^2 the model says M R v_dot + V L^-1 v = T/(rho pi R^2), which knows no speed.
     pub(super) fn inflow_rate<S: Real>(
         &self,
         r: usize,
-        velocity: Vec3<S, Hub>,
+        (velocity, height): (Vec3<S, Hub>, Option<S>),
         loads: &RotorLoads<S>,
         inflow: [S; 3],
     ) -> [S; 3] {
@@ -314,7 +315,8 @@ impl System {
         let mu = velocity.scaled(1.0 / rotor.tip_speed());
         let [ct, cl, cm] = rotor.aero_coefficients(self.air, loads.aero_force, loads.aero_moment);
         // the model counts forward and downward speed positive; hub axes point aft and up
-        let disk = DiskCondition { ct, cl, cm, mu_x: -mu.x, mu_y: mu.y, mu_z: -mu.z };
+        let height = height.map(|z| z / rotor.blade.radius);
+        let disk = DiskCondition { ct, cl, cm, mu_x: -mu.x, mu_y: mu.y, mu_z: -mu.z, height };
         self.pitt_peters.inflow_dot(inflow, disk, rotor.omega)
     }
 }

@@ -93,6 +93,10 @@ impl Host for System {
         Carried { y, hub }
     }
 
+    fn hub_height<S: Real>(&self, carried: &Carried<S>) -> Option<S> {
+        System::hub_height(self, 0, &carried.y)
+    }
+
     fn balances<S: Real>(
         &self,
         head: &Head<S>,

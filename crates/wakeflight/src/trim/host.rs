@@ -86,6 +86,8 @@ pub trait Host {
     fn blade_pitch<S: Real>(&self, pitch: &[S; 4], psi: f64) -> PitchMotion<S>;
     /// Its state and the motion of the hub.
     fn carried<S: Real>(&self, head: &Head<S>) -> Carried<S>;
+    /// Height of the hub above ground [m]; none where there is none.
+    fn hub_height<S: Real>(&self, carried: &Carried<S>) -> Option<S>;
     /// Its balances; none on a stand.
     fn balances<S: Real>(
         &self,

@@ -203,7 +203,8 @@ impl<'a, H: Host> Trim<'a, H> {
             let mu = carried.hub.velocity.scaled(1.0 / rotor.tip_speed());
             let [ct, cl, cm] = rotor.aero_coefficients(self.host.air(), mean.aero_force, mean.aero_moment);
             // the model counts forward and downward speed positive; hub axes point aft and up
-            let disk = DiskCondition { ct, cl, cm, mu_x: -mu.x, mu_y: mu.y, mu_z: -mu.z };
+            let height = self.host.hub_height(carried).map(|z| z / rotor.blade.radius);
+            let disk = DiskCondition { ct, cl, cm, mu_x: -mu.x, mu_y: mu.y, mu_z: -mu.z, height };
             let rate = self.host.pitt_peters().inflow_dot(head.inflow, disk, rotor.omega);
             for k in 0..3 {
                 f[layout.inflow() + k] = rate[k] / rotor.omega;

@@ -32,6 +32,12 @@ impl Plane {
         self.across(velocity, (0..3).map(|i| self.normal[i] * velocity[i]).sum())
     }
 
+    /// The point, or where it is below the plane the nearest one in it: there a vortex and its image cancel.
+    pub fn held(&self, point: [f64; 3]) -> [f64; 3] {
+        let below = self.above(point).min(0.0);
+        std::array::from_fn(|i| point[i] - below * self.normal[i])
+    }
+
     fn across(&self, vector: [f64; 3], along: f64) -> [f64; 3] {
         std::array::from_fn(|i| vector[i] - 2.0 * along * self.normal[i])
     }
@@ -50,6 +56,7 @@ mod tests {
         assert_eq!(image[1], point[1]);
         let back = plane.image(image);
         assert!((0..3).all(|i| (back[i] - point[i]).abs() < 1e-14));
+        assert!(plane.above(plane.held(image)).abs() < 1e-14 && plane.held(point) == point);
         let turned = plane.reflected(velocity);
         assert!((turned[0] * 0.6 + turned[2] * 0.8 + velocity[0] * 0.6 + velocity[2] * 0.8).abs() < 1e-14);
     }

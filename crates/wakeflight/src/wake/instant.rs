@@ -2,6 +2,7 @@
 
 use super::filament::Filaments;
 use super::geometry::{BladeGrid, BladeLine};
+use super::ground::Plane;
 use super::inboard_sheet;
 use super::motion::BladeState;
 use super::options::WakeOptions;
@@ -21,6 +22,8 @@ pub struct RotorInstant {
     pub station: Vec<[f64; 3]>,
     /// Bound circulation (n_blades, n_stations) [m2/s].
     pub circulation: Vec<f64>,
+    /// Ground, where there is one.
+    pub ground: Option<Plane>,
     /// Edges that the trailers of a blade leave from.
     pub(super) trailer_edges: Vec<usize>,
 }
@@ -34,6 +37,7 @@ impl RotorInstant {
             edge: vec![[0.0; 3]; options.rotor.n_blades * (options.n_stations + 1)],
             station: vec![[0.0; 3]; options.rotor.n_blades * options.n_stations],
             circulation: vec![0.0; options.rotor.n_blades * options.n_stations],
+            ground: None,
             trailer_edges: grid.trailer_edges.clone(),
         }
     }
@@ -83,6 +87,7 @@ impl RotorInstant {
         self.edge.clone_from(&other.edge);
         self.station.clone_from(&other.station);
         self.circulation.clone_from(&other.circulation);
+        self.ground = other.ground;
         self.trailer_edges.clone_from(&other.trailer_edges);
     }
 }

@@ -9,6 +9,7 @@ pub mod error;
 mod far_cylinder;
 pub mod filament;
 pub mod geometry;
+pub mod ground;
 pub mod inboard_sheet;
 pub mod influence;
 pub mod initial;
@@ -35,6 +36,7 @@ pub use choices::{
 };
 pub use circulation::{CirculationSolution, Route, solve_circulation};
 pub use error::WakeError;
+pub use ground::Plane;
 pub use lifting_surface::weissinger_matrix;
 pub use motion::{BladeState, HubMotion};
 pub use near_wake::near_wake_matrix;

@@ -3,6 +3,7 @@
 use super::error::{WakeError, checked_pace, finite, length};
 use super::filament::{aged_cores, distance, stretched_core_squared};
 use super::geometry::{BladeGrid, release_points};
+use super::ground::Plane;
 use super::inboard_sheet;
 use super::initial;
 use super::instant::RotorInstant;
@@ -41,6 +42,8 @@ pub struct RelaxationWake<F: InducedVelocity = Induction> {
     pace: f64,
     /// Whether it has been another.
     uneven: bool,
+    /// Ground under the hub, where there is one.
+    pub(crate) ground: Option<Plane>,
     pub(crate) grid: BladeGrid,
     pub(crate) field: F,
     pub(crate) hub: HubMotion,
@@ -114,6 +117,7 @@ impl<F: InducedVelocity> RelaxationWake<F> {
             relaxation: own.relaxation,
             pace: 1.0,
             uneven: false,
+            ground: None,
             options,
         };
         wake.place(&vec![(0.0, 0.0); n_psi]);
@@ -126,6 +130,11 @@ impl<F: InducedVelocity> RelaxationWake<F> {
         self.pace = checked_pace(pace)?;
         self.uneven |= pace != 1.0;
         Ok(())
+    }
+
+    /// Ground under the hub; none out of its effect.
+    pub fn set_ground(&mut self, ground: Option<Plane>) {
+        self.ground = ground;
     }
 
     /// New flight condition: hub motion, flap and lead of the blade at every azimuth [rad], and its bound circulation
@@ -365,6 +374,7 @@ impl<F: InducedVelocity> RelaxationWake<F> {
         let (n_r, n_sheet) = (options.n_stations, options.sheet_filaments());
         let carry = inboard_sheet::convection(options, &self.hub, self.mean_inflow);
         let mut instant = RotorInstant::new(options, &self.grid);
+        instant.ground = self.ground;
         for blade in 0..options.rotor.n_blades {
             let row = self.blade_row(l, blade);
             instant.place_blade(

@@ -1,5 +1,6 @@
 //! Where segments of a wake go: a list of segments, or sources packed for the sum.
 
+use super::ground::Plane;
 use crate::vortex::induced_velocity::Segments;
 use crate::vortex::sources::Sources;
 
@@ -21,5 +22,19 @@ impl Sink for Segments {
 impl Sink for Sources {
     fn push(&mut self, start: [f64; 3], end: [f64; 3], circulation: f64, core_radius: f64) {
         Sources::push(self, start, end, circulation, core_radius);
+    }
+}
+
+/// Segments of a wake above ground: what would be below is held in the plane.
+pub(crate) struct Above<'a, S> {
+    /// Where they go.
+    pub sink: &'a mut S,
+    /// The ground.
+    pub plane: Plane,
+}
+
+impl<S: Sink> Sink for Above<'_, S> {
+    fn push(&mut self, start: [f64; 3], end: [f64; 3], circulation: f64, core_radius: f64) {
+        self.sink.push(self.plane.held(start), self.plane.held(end), circulation, core_radius);
     }
 }

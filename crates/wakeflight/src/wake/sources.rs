@@ -4,7 +4,7 @@ use super::choices::{Precision, Trailers};
 use super::instant::RotorInstant;
 use super::lattice::{Viewer, bound, push_filament, push_shed};
 use super::options::WakeOptions;
-use super::sink::Sink;
+use super::sink::{Above, Sink};
 use crate::vortex::induced_velocity::Segments;
 use crate::vortex::sources::{Mark, Packing, Part, Sources};
 
@@ -31,6 +31,22 @@ pub(crate) fn push_kind(
     instant: &RotorInstant,
     kind: Kind,
     blade: usize,
+    own: bool,
+    floor: f64,
+) {
+    match instant.ground {
+        None => push_to(segments, options, instant, (kind, blade), own, floor),
+        Some(plane) => {
+            push_to(&mut Above { sink: segments, plane }, options, instant, (kind, blade), own, floor);
+        }
+    }
+}
+
+fn push_to(
+    segments: &mut impl Sink,
+    options: &WakeOptions,
+    instant: &RotorInstant,
+    (kind, blade): (Kind, usize),
     own: bool,
     floor: f64,
 ) {

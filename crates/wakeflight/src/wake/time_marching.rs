@@ -3,6 +3,7 @@
 use super::choices::{Evaluation, Form, Predictor, Scheme};
 use super::error::{WakeError, checked_pace, finite, length};
 use super::geometry::BladeGrid;
+use super::ground::Plane;
 use super::instant::RotorInstant;
 use super::motion::{BladeState, HubMotion};
 use super::options::{MarchingOptions, WakeOptions};
@@ -54,6 +55,8 @@ pub struct TimeMarchingWake<F: InducedVelocity = Induction> {
     pace: f64,
     /// Whether a step has taken another time.
     uneven: bool,
+    /// Ground under the hub at the levels to come, where there is one.
+    ground: Option<Plane>,
     #[serde(skip)]
     work: Work,
 }
@@ -127,6 +130,7 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
             velocity_is_known: false,
             pace: 1.0,
             uneven: false,
+            ground: relaxation.ground,
             work: Work::default(),
             options,
             own,
@@ -139,6 +143,11 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
         self.pace = checked_pace(pace)?;
         self.uneven |= pace != 1.0;
         Ok(())
+    }
+
+    /// Ground under the hub where the next step ends; none out of its effect.
+    pub fn set_ground(&mut self, ground: Option<Plane>) {
+        self.ground = ground;
     }
 
     /// Advances by one step of azimuth to the given hub motion, blades (n_blades) and bound circulation

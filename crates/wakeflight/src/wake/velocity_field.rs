@@ -4,6 +4,7 @@ use super::choices::{CoreDistance, Precision};
 use super::error::{WakeError, finite};
 use super::far_cylinder::far_cylinder;
 use super::filament::Filaments;
+use super::ground::Plane;
 use super::instant::RotorInstant;
 use super::motion::HubMotion;
 use super::options::WakeOptions;
@@ -242,9 +243,13 @@ pub fn field_at<F: InducedVelocity>(
     {
         groups.push(Group { points, sources: parts, velocity });
     }
-    let evaluations = field.add(&mut groups);
-    if let Some(cylinder) = far_cylinder(options, &instant.free) {
-        field.add_far(&mut groups, &cylinder);
+    let mut evaluations = field.add(&mut groups);
+    let cylinder = far_cylinder(options, &instant.free);
+    if let Some(cylinder) = &cylinder {
+        field.add_far(&mut groups, cylinder);
+    }
+    if let Some(plane) = &instant.ground {
+        evaluations += add_images(field, plane, &whole, cylinder.as_ref(), &mut groups);
     }
 
     if let Some((_, velocity)) = markers {
@@ -253,6 +258,30 @@ pub fn field_at<F: InducedVelocity>(
     if let Some(inflow) = stations {
         inflow.clear();
         inflow.extend(station_velocity.iter().map(|v| -v[2] / options.tip_speed()));
+    }
+    evaluations
+}
+
+/// Adds what the images in the ground of all vortices induce: the flow at the images of the points, mirrored. Blades see the image of
+/// all of themselves.
+fn add_images<F: InducedVelocity>(
+    field: &F,
+    plane: &Plane,
+    whole: &[Part<'_>],
+    cylinder: Option<&VortexCylinder>,
+    groups: &mut [Group<'_>],
+) -> u64 {
+    let points: Vec<[f64; 3]> =
+        groups.iter().flat_map(|group| group.points.iter().map(|p| plane.image(*p))).collect();
+    let mut velocity = vec![[0.0; 3]; points.len()];
+    let mut images = [Group { points: &points, sources: whole, velocity: &mut velocity }];
+    let evaluations = field.add(&mut images);
+    if let Some(cylinder) = cylinder {
+        field.add_far(&mut images, cylinder);
+    }
+    let felt = groups.iter_mut().flat_map(|group| group.velocity.iter_mut());
+    for (v, image) in felt.zip(&velocity) {
+        add_to(v, plane.reflected(*image));
     }
     evaluations
 }
@@ -292,8 +321,12 @@ pub fn point_velocity<F: InducedVelocity>(
     let whole = [sources.whole()];
     let mut groups = [Group { points, sources: &whole, velocity: &mut velocity }];
     field.add(&mut groups);
-    if let Some(cylinder) = far_cylinder(options, &instant.free) {
-        field.add_far(&mut groups, &cylinder);
+    let cylinder = far_cylinder(options, &instant.free);
+    if let Some(cylinder) = &cylinder {
+        field.add_far(&mut groups, cylinder);
+    }
+    if let Some(plane) = &instant.ground {
+        add_images(field, plane, &whole, cylinder.as_ref(), &mut groups);
     }
     velocity
 }

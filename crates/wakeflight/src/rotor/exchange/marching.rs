@@ -151,6 +151,7 @@ impl MarchingExchange {
             self.wake.set_mean_inflow(self.disk.carrying_inflow(&self.passed_circulation, hub.velocity))?;
         }
         self.wake.set_pace(at.pace())?;
+        self.wake.set_ground(at.ground);
         self.place(at.rotor, blades, &at.near_hub())?;
         let mut followed = self.solve(at, true)?;
         let step = self.wake.step(hub, &self.states, &self.circulation)?;

@@ -20,7 +20,7 @@ use crate::blade::hub_motion::HubMotion;
 use crate::blade::kinematics::PitchMotion;
 use crate::blade::memory_rows::MemoryRows;
 use crate::inflow::disk::{DiskMean, LiftingDisk};
-use crate::wake::{HubMotion as WakeHub, WakeError};
+use crate::wake::{HubMotion as WakeHub, Plane, WakeError};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
@@ -37,6 +37,8 @@ pub struct Place<'a> {
     pub turning: Turning,
     /// What the air does of its own at the stations, as inflow (n_blades, n_stations); empty where it does nothing.
     pub gust: &'a [f64],
+    /// Ground, where there is one.
+    pub ground: Option<Plane>,
 }
 
 impl Place<'_> {

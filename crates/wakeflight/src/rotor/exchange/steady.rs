@@ -226,6 +226,7 @@ impl SteadyWake {
             return Ok((vec![0.0; self.lambda_far.len()], 0.0, 0.0));
         };
         wake.set_pace(place.pace())?;
+        wake.set_ground(place.ground);
         wake.set_state(hub, angles, &self.circulation)?;
         wake.set_mean_inflow(carrying)?;
         let norms = wake.sweep(self.own.sweeps)?;

@@ -24,6 +24,7 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
         let (n_k, n_t) = (options.n_segments(), options.trailers_per_blade());
         let (n_r, n_sheet) = (options.n_stations, options.sheet_filaments());
         next.copy(&self.instant);
+        next.ground = self.ground;
         carrier.clone_from(&self.carrier);
         let old_carry = inboard_sheet::convection(options, &self.hub, self.mean_inflow);
         let new_carry = inboard_sheet::convection(options, hub, self.mean_inflow);
