@@ -23,7 +23,8 @@ def autopilot(seen: dict[str, float], trim: dict[str, float]) -> np.ndarray:
     longitudinal = 1.5 * (pitch - seen["pitch"]) - 1.0 * seen["q"]
     collective = -0.03 * seen["height"] - 0.08 * seen["climb_rate"]
     pedal = 1.0 * (trim["yaw"] - seen["yaw"]) - 1.0 * seen["r"]
-    return np.clip([lateral, longitudinal, collective, pedal], -1.0, 1.0).astype(np.float32)
+    sticks: np.ndarray = np.clip([lateral, longitudinal, collective, pedal], -1.0, 1.0).astype(np.float32)
+    return sticks
 
 
 def main(out: Path = Path("runs/examples"), seconds: float = 20.0) -> Path:

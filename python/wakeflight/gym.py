@@ -99,7 +99,7 @@ class HelicopterEnv(gymnasium.Env[np.ndarray, np.ndarray]):
     follow the same bits.
     """
 
-    metadata = {"render_modes": []}  # noqa: RUF012
+    metadata: dict[str, Any] = {"render_modes": []}  # noqa: RUF012
 
     @checked
     def __init__(

@@ -249,7 +249,7 @@ class Maneuver:
         own._check_begins(own.duration(omega))
         return own
 
-    def about(self, trim_in: Sequence[float]) -> Maneuver:
+    def about(self, trim_in: Sequence[float] | np.ndarray) -> Maneuver:
         """The manoeuvre about trim: inches from the stop become those from `trim_in` (4,) [in], each stick led from trim to
         them."""
         if not self.absolute:
@@ -468,8 +468,12 @@ def _of_record(path: Path, file: _RecordedFile, control: Augmentation | None) ->
         found = recorded(
             beside, file.recorded.about, quantity(file.recorded.join, "s", "recorded.join"), None, file.name
         )
-        length = {} if file.duration is None else vars(file.duration)
-        said = {"notes": file.notes.strip(), "references": _known(file.sources), "travel_in": file.travel}
+        length: dict[str, Any] = {} if file.duration is None else vars(file.duration)
+        said: dict[str, Any] = {
+            "notes": file.notes.strip(),
+            "references": _known(file.sources),
+            "travel_in": file.travel,
+        }
         return replace(found, control=control, **length, **said)
     except ValueError as reason:
         raise InputError(str(reason) if str(path) in str(reason) else f"{path}: {reason}") from None

@@ -152,7 +152,8 @@ class Recorder:
             values[k] = out[name]
         through_air = y
         if self.wind is not None:
-            self.wind[k], through_air = at.wind, passing(y, at.wind)
+            blown = known(at.wind)
+            self.wind[k], through_air = blown, passing(y, blown)
         sample = self.azimuth[k], self.blade["inflow"][k], self.blade["mach"][k]
         check_sample(self.model, t, through_air, stick, *sample)
         for name, values in self.loads.items():

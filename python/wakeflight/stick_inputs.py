@@ -13,7 +13,8 @@ from typing import Any
 
 from .arguments import checked
 from .errors import InputError
-from .maneuvers import Corner, Maneuver, recorded
+from .maneuvers import Maneuver, recorded
+from .stick_histories import Corner
 from .sticks import STICKS
 from .units import quantity
 

@@ -51,13 +51,13 @@ def read_sticks(path: Path, about: str = "first") -> Record:
         if len(cells) != len(header):
             raise InputError.of(f"line {number}", line, f"must have {len(header)} columns", file=path)
         for column, cell in zip(header, cells, strict=True):
-            name = _quantity(path, column)
-            if name is None:
+            measured = _quantity(path, column)
+            if measured is None:
                 continue
             value = plain_number(cell)
             if value is None:
                 raise InputError.of(f"{column}, line {number}", cell.strip(), "must be a finite number", file=path)
-            samples[name].append(value * units[name])
+            samples[measured].append(value * units[measured])
     times = [each - samples["time"][0] for each in samples["time"]]
     for before, after in itertools.pairwise(times):
         if not after > before:

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from .maneuvers import ROUNDING, Corner, Maneuver
+from .maneuvers import ROUNDING, Maneuver
+from .stick_histories import Corner
 from .sticks import INCH, STICKS
 
 DECIMALS = 4
@@ -30,15 +31,17 @@ class SampledSticks:
     def at(self, t: float) -> np.ndarray:
         """Positions (4,) [m from the stop] at time `t` [s]."""
         about_trim = [np.interp(t, self.times, each) for each in self.inches.T]
-        return INCH * (self.trim_in + np.array(about_trim))
+        found: np.ndarray = INCH * (self.trim_in + np.array(about_trim))
+        return found
 
     def rate(self, t: float) -> np.ndarray:
         """Rates (4,) [m/s] just after time `t` [s]."""
         piece = int(np.searchsorted(self.times, t + ROUNDING, side="right")) - 1
         if piece > 1:
             return np.zeros(4)
-        rise = self.inches[piece + 1] - self.inches[piece]
-        return INCH * (rise / (self.times[piece + 1] - self.times[piece]))
+        rise: np.ndarray = self.inches[piece + 1] - self.inches[piece]
+        rate: np.ndarray = INCH * (rise / (self.times[piece + 1] - self.times[piece]))
+        return rate
 
     def pieces(self, t0: float, t1: float) -> list[tuple[float, float]]:
         """One: corners stand at the ends of coupling steps."""

@@ -16,8 +16,9 @@ from dataclasses import replace
 import numpy as np
 from scipy.linalg import solveh_banded
 
-from .maneuvers import ROUNDING, Corner, Maneuver
+from .maneuvers import ROUNDING, Maneuver
 from .rotor_speed import Clock
+from .stick_histories import Corner
 
 MOST_CORNERS = 2
 """Corners within a coupling step at which the solver still stops one by one."""

@@ -39,7 +39,7 @@ def validated(
         "known": known or {},
     }
     try:
-        spec = schema.model_validate(data, context=context)
+        spec: Any = schema.model_validate(data, context=context)
     except ValidationError as reason:
         raise _one_error(path, reason, written, schema) from None
     for key, source in spec.sources.items():
@@ -105,12 +105,12 @@ def _at(raw: Any, location: list[str]) -> Any:
     return raw
 
 
-def _tag(data: dict) -> bool:
+def _tag(data: dict[str, Any]) -> bool:
     group = data.get("interference")
     return isinstance(group, dict) and group.get("kind") in ("tables", "factors")
 
 
-def _allowed(schema: type[BaseModel], location: list[str], data: dict) -> list[str]:
+def _allowed(schema: type[BaseModel], location: list[str], data: dict[str, Any]) -> list[str]:
     """Keys of the group at `location`."""
     model: Any = schema
     for depth, part in enumerate(location):

@@ -72,7 +72,7 @@ def varied(spec: AircraftFile, path: Path, steps: Sequence[Changes]) -> Aircraft
     told = "given in place of the file's number"
     data.setdefault("sources", {})[VARIED] = {"text": told}
     try:
-        found = validated(path, groups_of(path, data), AircraftFile, dict(texts), True, known=texts)
+        found: AircraftFile = validated(path, groups_of(path, data), AircraftFile, dict(texts), True, known=texts)
     except InputError as reason:
         raise InputError(f"varied: {reason}") from None
     chosen: dict[str, Any] = {}
@@ -91,6 +91,7 @@ def varied(spec: AircraftFile, path: Path, steps: Sequence[Changes]) -> Aircraft
 
 def _replace(data: dict[str, Any], name: str, value: Any, texts: Mapping[str, str]) -> None:
     """Put a value in its place."""
+    group: Any
     group, rest = _rotor(data, name.split("."))
     for depth, part in enumerate(rest[:-1]):
         inner = group[int(part)] if isinstance(group, list) and part.isdecimal() and int(part) < len(group) else None
@@ -171,7 +172,7 @@ def _entry(before: Any, value: Any, name: str, unsourced: bool) -> Any:
         return value
     factor = _factor(value)
     if factor is not None:
-        if not numbered:
+        if not (isinstance(before, dict) and numbered):
             raise InputError.of(name, value, "must be a value: the file has no number to be multiplied")
         return {**before, **own, "value": _times(before["value"], factor)}
     given = [value] if not isinstance(value, list) else value

@@ -16,9 +16,11 @@ def on_cluster(tasks: Mapping[int, tuple[Any, Any, Any]], client: Any) -> Genera
     """Outcomes of tasks by their places, in the order in which they are done."""
     from distributed import as_completed
 
+    completed: Any = as_completed
+
     futures = {client.submit(_run, *task, pure=False): place for place, task in tasks.items()}
     try:
-        for future in as_completed(list(futures)):
+        for future in completed(list(futures)):
             reason = future.exception()
             place = futures.pop(future)
             yield place, future.result() if reason is None else Outcome(failure=told(reason), lasting=False)

@@ -73,14 +73,14 @@ class SweepFolder:
             "variables": [],
             "coordinates": [],
         }
-        arrays: list[np.ndarray] = []
+        arrays: dict[str, Any] = {}
         for kind, named in (("variables", found.variables), ("coordinates", found.coordinates)):
             for name, (dims, values, said) in named.items():
                 head[kind].append([name, list(dims), said, len(arrays)])
-                arrays.append(values)
+                arrays[f"a{len(arrays)}"] = values
         stream = io.BytesIO()
         text = np.frombuffer(json.dumps(head).encode(), np.uint8)
-        np.savez(stream, head=text, **{f"a{i}": values for i, values in enumerate(arrays)})
+        np.savez(stream, head=text, **arrays)
         atomic.write_bytes(self.path(key), stream.getvalue())
 
     def found(self, key: str) -> Outcome | None:
@@ -88,7 +88,7 @@ class SweepFolder:
         try:
             with np.load(self.path(key), allow_pickle=False) as file:
                 head = json.loads(file["head"].tobytes())
-                read = {
+                read: dict[str, Any] = {
                     kind: {name: (tuple(dims), file[f"a{i}"], said) for name, dims, said, i in head[kind]}
                     for kind in ("variables", "coordinates")
                 }

@@ -117,11 +117,12 @@ def _filled(
     """Values of all cases in one array."""
     own = tuple(along[dim].size for dim in dims)
     text = any(values.dtype.kind == "U" for _, values, _ in given.values())
-    whole = np.full((*shape, *own), "" if text else np.nan, dtype=object if text else float)
+    whole: Any = np.full((*shape, *own), "" if text else np.nan, dtype=object if text else float)
     for k, (_, values, _) in given.items():
         target = whole[cases.place(k)] if cases.shape else whole
         if dims:
-            target[np.ix_(*(along[dim].places[k] for dim in dims))] = values
+            target[np.ix_(*(np.asarray(along[dim].places[k]) for dim in dims))] = values
         else:
             whole[(*cases.place(k), ...)] = values
-    return whole.astype(str) if text else whole
+    table: np.ndarray = whole.astype(str) if text else whole
+    return table

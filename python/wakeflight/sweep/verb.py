@@ -20,7 +20,9 @@ Case = Mapping[str, Any]
 class Verb(Protocol):
     """What a sweep asks of what it runs."""
 
-    name: str
+    @property
+    def name(self) -> str:
+        """What it is called."""
 
     @property
     def sent(self) -> Any:

@@ -20,7 +20,7 @@ from typing import Any
 
 from ..aircraft import Aircraft, Rotor, load_aircraft, load_rotor
 from ..aircraft.bundle import Bundle
-from ..condition import FlightCondition, condition_for, target
+from ..condition import CompleteCondition, FlightCondition, condition_for, target
 from ..control import augmentation
 from ..errors import InputError
 from ..flight import fly
@@ -129,7 +129,7 @@ class OfFlight:
         """All names that a case may have."""
         return tuple(dict.fromkeys((*OF_AIRCRAFT, *OF_CONDITION, *OF_INFLOW, *OF_TRIM, *self.own)))
 
-    def _prepared(self, case: Case) -> tuple[Aircraft, FlightCondition, Any, dict[str, Any]]:
+    def _prepared(self, case: Case) -> tuple[Aircraft, CompleteCondition, Any, dict[str, Any]]:
         check_names(case, self.arguments)
         aircraft = aircraft_of(case)
         named = case.get("condition")

@@ -120,7 +120,8 @@ class WindField(Wind):
         self.beyond += int(outside.sum())
         if self.outside == "zero":
             found[outside] = 0.0
-        return found @ self._turn
+        turned: np.ndarray = found @ self._turn
+        return turned
 
     def described(self) -> dict[str, Any]:
         """By its file; a field without one is told by its kind alone."""

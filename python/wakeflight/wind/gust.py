@@ -69,5 +69,6 @@ class Gust(Told):
         along, ahead, length = self._place
         within = (np.asarray(points) @ along - ahead) / length
         top = 1.0 if self.shape == "1-cosine" else 0.5
-        share = 0.5 * (1.0 - np.cos(2.0 * np.pi * np.clip(within, 0.0, top)))
-        return share[:, None] * self.velocity
+        share: np.ndarray = 0.5 * (1.0 - np.cos(2.0 * np.pi * np.clip(within, 0.0, top)))
+        blown: np.ndarray = share[:, None] * self.velocity
+        return blown

@@ -130,12 +130,14 @@ class Winds(Wind):
 
     def drift(self) -> np.ndarray:
         """That of its parts."""
-        return self._drift
+        drift: np.ndarray = self._drift
+        return drift
 
     def __call__(self, points: np.ndarray, t: float) -> np.ndarray:
         """The sum."""
         moved = points - self._drift * t
-        return np.sum([part(moved if part.carried else points, t) for part in self.parts], axis=0)
+        whole: np.ndarray = np.sum([part(moved if part.carried else points, t) for part in self.parts], axis=0)
+        return whole
 
     def described(self) -> dict[str, Any]:
         """Part by part."""

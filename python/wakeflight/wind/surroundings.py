@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -33,9 +34,10 @@ class Air:
         if held is None or self.stations is None:
             return held
         lines = held.shape[1] // self.stations.shape[1]
-        return held + np.tile(self.stations, lines)
+        gusty: np.ndarray = held + np.tile(self.stations, lines)
+        return gusty
 
-    def acting(self, dynamic: bool) -> tuple:
+    def acting(self, dynamic: bool) -> tuple[Any, ...]:
         """As the core takes it; the stations are in the held inflow where there is one."""
         if self.stations is None:
             return (self.origin, None)

@@ -103,7 +103,8 @@ class Turbulence(Told):
     def __call__(self, points: np.ndarray, t: float) -> np.ndarray:
         """At points (n, 3)."""
         waves, sizes, phases = self.modes
-        return np.cos(points @ waves.T + phases) @ sizes
+        velocity: np.ndarray = np.cos(points @ waves.T + phases) @ sizes
+        return velocity
 
 
 @with_checked_init
