@@ -194,7 +194,10 @@ impl<F: FnMut(&[f64], &mut [f64], &mut [f64])> Problem<'_, F> {
             there.gamma = gamma;
             let (found, n) = match route {
                 Route::Linear => self.settle(there, tolerance),
-                _ => self.descend(there, Slopes::Exact, tolerance),
+                _ => {
+                    self.evaluate(&mut there);
+                    self.descend(there, Slopes::Exact, tolerance)
+                }
             };
             iterations += n;
             if self.solved(&found, tolerance) {
@@ -261,9 +264,10 @@ impl<F: FnMut(&[f64], &mut [f64], &mut [f64])> Problem<'_, F> {
     }
 
     /// From `start` close to a solution with clipped slopes, to it with exact ones where it is as near as it seems.
-    fn settle(&mut self, start: Iterate, tolerance: f64) -> (Iterate, usize) {
+    fn settle(&mut self, mut start: Iterate, tolerance: f64) -> (Iterate, usize) {
         let steepest = self.floor.iter().fold(0.0f64, |most, s| most.max(s.abs()));
         let near = tolerance.max(CLOSE * steepest);
+        self.evaluate(&mut start);
         let (close, n_close) = self.descend(start, Slopes::Clipped, near);
         if close.residual <= tolerance || close.residual > near {
             return (close, n_close);
@@ -277,10 +281,9 @@ impl<F: FnMut(&[f64], &mut [f64], &mut [f64])> Problem<'_, F> {
         (slow, n_close + n_found + n_slow)
     }
 
-    /// Damped Newton from `here.gamma`: the best iterate and the number of iterations.
+    /// Damped Newton from `here`, which is evaluated: the best iterate and the number of iterations.
     fn descend(&mut self, mut here: Iterate, slopes: Slopes, tolerance: f64) -> (Iterate, usize) {
         let n = self.far.len();
-        self.evaluate(&mut here);
         let mut best = here.clone();
         let (mut candidate, mut shorter) = (Iterate::new(n), Iterate::new(n));
         let (mut jacobian, mut step) = (vec![0.0; n * n], vec![0.0; n]);

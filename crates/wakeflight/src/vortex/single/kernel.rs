@@ -7,7 +7,7 @@ use crate::vortex::strands::Strand;
 use pulp::Simd;
 use pulp::bytemuck::{cast_slice, cast_slice_mut};
 
-/// Square of the distance, in units of length, below which a point lies on a node: it gets nothing from the segments there.
+/// Square of a distance, in units of length, that is added to all: where there is no other the point lies on a node.
 const LEAST_SQUARE: f32 = 1e-24;
 /// Least product under the reciprocal root of a core at the distance to the segment.
 const LEAST_PRODUCT: f32 = 1e-36;
@@ -24,11 +24,11 @@ pub(super) struct Sum<'a, const TO_SEGMENT: bool> {
 /// Position or velocity of several points.
 type Vectors<S> = [<S as Simd>::f32s; 3];
 
-/// Points seen from one node: separation, its square, one over its length, and whether there is any.
+/// Points seen from one node: separation, its square, twice one over its length, and whether there is any.
 struct FromNode<S: Simd> {
     separation: Vectors<S>,
     distance_sq: S::f32s,
-    per_distance: S::f32s,
+    twice_per_distance: S::f32s,
     apart: S::m32s,
 }
 
@@ -135,8 +135,8 @@ fn over_sources<S: Simd, R: Root<S>, const TO_SEGMENT: bool>(
             } else {
                 by_line(on, &from_start, &from_end, piece)
             };
-            let apart = on.both(from_start.apart, from_end.apart);
-            let weight = on.select(apart, weight, on.splat(0.0));
+            // from a start on the point the vector is zero, from an end rounding
+            let weight = on.select(from_end.apart, weight, on.splat(0.0));
             for axis in 0..3 {
                 tile.sum[axis] = on.mul_add(weight, height[axis], tile.sum[axis]);
             }
@@ -154,12 +154,13 @@ fn over_sources<S: Simd, R: Root<S>, const TO_SEGMENT: bool>(
 fn from_node<S: Simd, R: Root<S>>(on: Lanes<S, R>, points: &Vectors<S>, node: &[f32; 3]) -> FromNode<S> {
     let node = splats(on, node);
     let separation = [on.sub(points[0], node[0]), on.sub(points[1], node[1]), on.sub(points[2], node[2])];
-    let distance_sq = dot(on, &separation, &separation);
     let least = on.splat(LEAST_SQUARE);
+    let [x, y, z] = separation;
+    let distance_sq = on.mul_add(x, x, on.mul_add(y, y, on.mul_add(z, z, least)));
     FromNode {
         separation,
         distance_sq,
-        per_distance: on.reciprocal_sqrt(on.max(distance_sq, least)),
+        twice_per_distance: on.twice_reciprocal_sqrt(distance_sq),
         apart: on.greater(distance_sq, least),
     }
 }
@@ -201,8 +202,9 @@ fn by_line<S: Simd, R: Root<S>>(
     let height_sq = dot(on, &height, &height);
     let past_start = dot(on, &direction, &from_start.separation);
     let past_end = on.sub(past_start, on.splat(piece.length));
-    let cosines = on.sub_mul(on.mul(past_start, from_start.per_distance), past_end, from_end.per_distance);
-    let inverse = on.reciprocal_sqrt(on.mul_add(height_sq, height_sq, on.splat(piece.core_4)));
+    let cosines =
+        on.sub_mul(on.mul(past_start, from_start.twice_per_distance), past_end, from_end.twice_per_distance);
+    let inverse = on.twice_reciprocal_sqrt(on.mul_add(height_sq, height_sq, on.splat(piece.core_4)));
     (on.mul(on.mul(on.splat(piece.strength), cosines), inverse), height)
 }
 
@@ -220,8 +222,9 @@ fn by_segment<S: Simd, R: Root<S>>(
     let height = cross(on, &splats(on, &piece.direction), &from_start.separation);
     let height_sq = dot(on, &height, &height);
     let d = dot(on, &from_start.separation, &from_end.separation);
-    let r1 = on.mul(from_start.distance_sq, from_start.per_distance);
-    let r2 = on.mul(from_end.distance_sq, from_end.per_distance);
+    let half = on.splat(0.5);
+    let r1 = on.mul(on.mul(half, from_start.distance_sq), from_start.twice_per_distance);
+    let r2 = on.mul(on.mul(half, from_end.distance_sq), from_end.twice_per_distance);
     let width = on.mul_add(r1, r2, on.abs(d));
     let nearest_sq = on.min(from_start.distance_sq, from_end.distance_sq);
     let ahead = on.greater(d, on.splat(0.0));
@@ -232,8 +235,8 @@ fn by_segment<S: Simd, R: Root<S>>(
     let scale = on.select(ahead, on.splat(piece.length), on.splat(piece.per_length));
     let core = on.mul_add(distance_sq, distance_sq, on.splat(piece.core_4));
     let product = on.mul(core, on.mul(below, below));
-    let inverse = on.reciprocal_sqrt(on.max(product, on.splat(LEAST_PRODUCT)));
-    let per_distances = on.add(from_start.per_distance, from_end.per_distance);
+    let inverse = on.twice_reciprocal_sqrt(on.max(product, on.splat(LEAST_PRODUCT)));
+    let per_distances = on.add(from_start.twice_per_distance, from_end.twice_per_distance);
     let shape = on.mul(on.mul(per_distances, above), on.mul(scale, inverse));
     (on.mul(on.splat(piece.strength), shape), height)
 }

@@ -3,10 +3,10 @@
 use crate::numerics::instruction_set::InstructionSet;
 use pulp::{Scalar, Simd, WithSimd};
 
-/// One over the square root of positive, finite numbers.
+/// Twice one over the square root of positive, finite numbers.
 pub(super) trait Root<S: Simd>: Copy {
     /// To some units of the last place.
-    fn reciprocal_sqrt(self, on: Lanes<S, Self>, x: S::f32s) -> S::f32s;
+    fn twice_reciprocal_sqrt(self, on: Lanes<S, Self>, x: S::f32s) -> S::f32s;
 }
 
 /// Operations on vectors of `S`, with roots by `R`.
@@ -66,17 +66,13 @@ impl<S: Simd, R: Root<S>> Lanes<S, R> {
         self.simd.greater_than_f32s(a, b)
     }
     #[inline(always)]
-    pub fn both(self, a: S::m32s, b: S::m32s) -> S::m32s {
-        self.simd.and_m32s(a, b)
-    }
-    #[inline(always)]
     pub fn select(self, truth: S::m32s, yes: S::f32s, no: S::f32s) -> S::f32s {
         self.simd.select_f32s(truth, yes, no)
     }
-    /// One over the square root of positive numbers.
+    /// Twice one over the square root of positive numbers: a Newton step gives it in one operation less.
     #[inline(always)]
-    pub fn reciprocal_sqrt(self, a: S::f32s) -> S::f32s {
-        self.root.reciprocal_sqrt(self, a)
+    pub fn twice_reciprocal_sqrt(self, a: S::f32s) -> S::f32s {
+        self.root.twice_reciprocal_sqrt(self, a)
     }
 }
 
@@ -86,17 +82,15 @@ pub(super) struct Exact;
 
 impl<S: Simd> Root<S> for Exact {
     #[inline(always)]
-    fn reciprocal_sqrt(self, on: Lanes<S, Self>, x: S::f32s) -> S::f32s {
-        on.simd.div_f32s(on.splat(1.0), on.simd.sqrt_f32s(x))
+    fn twice_reciprocal_sqrt(self, on: Lanes<S, Self>, x: S::f32s) -> S::f32s {
+        on.simd.div_f32s(on.splat(2.0), on.simd.sqrt_f32s(x))
     }
 }
 
-/// One Newton step for 1 / sqrt(x); an error e of the estimate becomes 3/2 e^2.
+/// Twice one Newton step for 1 / sqrt(x), y (3 - x y^2); an error e of the estimate becomes 3/2 e^2.
 #[inline(always)]
 fn refined<S: Simd, R: Root<S>>(on: Lanes<S, R>, x: S::f32s, estimate: S::f32s) -> S::f32s {
-    let half = on.splat(0.5);
-    let half_defect = on.sub_mul(half, on.mul(on.mul(half, x), estimate), estimate);
-    on.mul_add(estimate, half_defect, estimate)
+    on.mul(estimate, on.sub_mul(on.splat(3.0), on.mul(x, estimate), estimate))
 }
 
 /// A computation on the lanes of any instruction set.
@@ -138,14 +132,14 @@ mod wide {
 
     impl Root<V3> for Refined {
         #[inline(always)]
-        fn reciprocal_sqrt(self, on: Lanes<V3, Self>, x: f32x8) -> f32x8 {
+        fn twice_reciprocal_sqrt(self, on: Lanes<V3, Self>, x: f32x8) -> f32x8 {
             refined(on, x, on.simd.approx_reciprocal_sqrt_f32x8(x))
         }
     }
 
     impl Root<V4> for Refined {
         #[inline(always)]
-        fn reciprocal_sqrt(self, on: Lanes<V4, Self>, x: f32x16) -> f32x16 {
+        fn twice_reciprocal_sqrt(self, on: Lanes<V4, Self>, x: f32x16) -> f32x16 {
             refined(on, x, cast(on.simd.avx512f._mm512_rsqrt14_ps(cast(x))))
         }
     }
@@ -207,7 +201,7 @@ mod tests {
             for (largest, allowed) in [(1.5 * f64::powi(2.0, -12), 3.4e-7), (f64::powi(2.0, -14), 1.3e-7)] {
                 for error in [-1.0, -0.4, 0.0, 0.7, 1.0] {
                     let estimate = ((1.0 + error * largest) * exact) as f32;
-                    let found = f64::from(refined(on, x, estimate)) / exact - 1.0;
+                    let found = f64::from(refined(on, x, estimate)) / (2.0 * exact) - 1.0;
                     assert!(found.abs() <= allowed, "{x} {error}: {found:e}");
                 }
             }

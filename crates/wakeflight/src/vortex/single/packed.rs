@@ -6,7 +6,7 @@ pub(super) const FARTHEST: f32 = 1e4;
 pub(super) const LEAST_CORE: f32 = 1e-5;
 /// Square of the length, in units of length, below which a segment has none.
 const LEAST_LENGTH_SQ: f32 = 1e-18;
-/// Largest circulation over 4 pi and the unit of length [m/s]: products stay finite.
+/// Largest circulation over 16 pi and the unit of length [m/s]: products stay finite.
 pub(super) const MOST_STRENGTH: f32 = 1e6;
 
 /// One segment, ending where the next of its strand starts; lengths over the unit.
@@ -20,7 +20,7 @@ pub(in crate::vortex) struct SinglePiece {
     pub(super) length: f32,
     /// One over it; zero without length.
     pub(super) per_length: f32,
-    /// Circulation over 4 pi and the unit of length [m/s].
+    /// A quarter of circulation over 4 pi and the unit of length [m/s]: the two roots of the law come twice as large.
     pub(super) strength: f32,
     /// Fourth power of the core radius.
     pub(super) core_4: f32,
@@ -84,7 +84,7 @@ impl SingleStrands {
         let length = length_sq.sqrt();
         let (length, per_length) =
             if length_sq < LEAST_LENGTH_SQ { (0.0, 0.0) } else { (length, 1.0 / length) };
-        let strength = (circulation / (4.0 * std::f64::consts::PI) * per_unit) as f32;
+        let strength = (circulation / (16.0 * std::f64::consts::PI) * per_unit) as f32;
         let core = ((core_radius * per_unit) as f32).clamp(LEAST_CORE, FARTHEST);
         self.pieces.push(SinglePiece {
             end: scaled(end, per_unit),

@@ -265,7 +265,7 @@ fn extreme_numbers_stay_finite_and_a_far_segment_induces_next_to_nothing() {
             let segment = [([far, 0.0, 0.0], [far, UNIT, 0.0], 10.0, 0.1)];
             let v = single(set, &[[0.0; 3], [0.0, 0.0, far]], &segment, distance);
             assert!(v.iter().all(|v| length(*v) < 1e-7), "{set:?} {distance:?}: {v:?}");
-            let most = 4.0 * PI * UNIT * f64::from(MOST_STRENGTH);
+            let most = 16.0 * PI * UNIT * f64::from(MOST_STRENGTH);
             let strong = |circulation| {
                 single(set, &[[0.0; 3]], &[([UNIT, 0.0, 0.0], [UNIT, UNIT, 0.0], circulation, 0.1)], distance)
             };
