@@ -6,7 +6,11 @@ import pytest
 import synthetic
 
 from wakeflight import plotting
+from wakeflight.errors import InputError
 from wakeflight.plotting import comparison, disk, modes, style, trim_maps, wake_geometry
+from wakeflight.plotting.histories import one_revolution_mean
+from wakeflight.plotting.shown import check_units
+from wakeflight.results.turns import revolutions
 
 
 @pytest.fixture(scope="module")
@@ -138,3 +142,34 @@ def test_the_same_figure_gives_the_same_bytes(run, tmp_path):
     for kind in ("png", "svg"):
         first, second = (style.save(sticks.figure(run), tmp_path / f"{k}.{kind}").read_bytes() for k in "ab")
         assert first == second
+
+
+def test_units_are_those_asked_for(run):
+    figure = plotting.body.figure(run, units="us")
+    (axes,) = (axes for axes in figure.axes if axes.get_ylabel() == "u [kt]")
+    drawn = axes.lines[0].get_ydata()
+    assert np.allclose(drawn, run["u"].values * 3600.0 / 1852.0)
+    # angles stay in degrees, sticks in inches
+    assert "p [deg/s]" in [axes.get_ylabel() for axes in figure.axes]
+    labels = [axes.get_ylabel() for axes in plotting.loads.figure(run, units="us").axes]
+    assert "Z [1000 lbf]" in labels and "M [1000 ft lbf]" in labels
+    with pytest.raises(InputError, match=r"units = 'imperial': allowed: si, us"):
+        check_units("imperial")
+
+
+def test_the_mean_of_a_ramp_with_blade_passages_is_the_ramp_to_its_ends(run):
+    # blades' passages leave the means of half revolutions as they are; a mean over half a window would lag at the ends
+    turns = revolutions(run)
+    if turns[-1] < 1.5:
+        pytest.skip("the run is too short")
+    ramp = 3.0 + 2.0 * turns
+    assert np.allclose(one_revolution_mean(run, ramp), ramp, atol=1e-9)
+    shaken = one_revolution_mean(run, ramp + np.cos(2.0 * np.pi * 4.0 * turns))
+    assert abs(shaken[-1] - ramp[-1]) < 0.05 and abs(shaken[0] - ramp[0]) < 0.05
+
+
+def test_a_model_without_a_part_has_no_curve_of_it(run):
+    relaxed = run.assign(odd_even=0.0 * run["odd_even"])
+    figure = plotting.monitors.figure({"relaxation": relaxed, "time-marching": run})
+    (axes,) = (axes for axes in figure.axes if axes.get_ylabel() == "odd–even [R]")
+    assert {line.get_label() for line in axes.lines if not line.get_label().startswith("_")} == {"time-marching"}

@@ -54,7 +54,9 @@ def compare(
     if len(runs) > 1 and drawing.figures:
         from .. import report as reports
 
-        page = reports.write(runs, outcome.folder_made(requests[0].out), figure_format=drawing.figure_format)
+        form, units = drawing.figure_format, drawing.units
+        folder = outcome.folder_made(requests[0].out)
+        page = reports.write(runs, folder, figure_format=form, units=units)
         print(f"wrote {page}, the models side by side")
     if failures:
         raise NumericalFailure("; ".join(failures))

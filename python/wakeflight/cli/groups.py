@@ -74,6 +74,14 @@ Blades = Annotated[
 Out = Annotated[Path | None, told("--out", "folder for results", "runs/ and a name")]
 
 
+DrawnUnits = Annotated[
+    str,
+    typer.Option(
+        "--units",
+        help="si or us (kt, ft, lbf, hp): units of figures and report",
+        autocompletion=offered("si", "us"),
+    ),
+]
 FigureFormat = Annotated[
     str,
     typer.Option(
@@ -199,6 +207,7 @@ class Drawing(Group):
 
     figures: Annotated[bool, typer.Option("--figures/--no-figures", help="draw figures and write the report")] = True
     figure_format: FigureFormat = "png"
+    units: DrawnUnits = "si"
 
 
 def expanded(command: Callable[..., None]) -> Callable[..., None]:

@@ -122,7 +122,8 @@ def draw(data: Any, path: Path, progress: Progress, drawing: Drawing) -> None:
     try:
         from .. import report as reports
 
-        reports.write(data, path.parent, progress=progress, figure_format=drawing.figure_format)
+        form, units = drawing.figure_format, drawing.units
+        reports.write(data, path.parent, progress=progress, figure_format=form, units=units)
     except WakeflightError:
         raise
     except Exception as reason:  # whatever a machine has against figures: the run stays

@@ -146,6 +146,8 @@ def check_drawing(drawing: Drawing) -> Drawing:
     """Refuse a format of figures that there is not."""
     if drawing.figure_format not in ("png", "svg", "pdf"):
         raise InputError.choice("--figure-format", drawing.figure_format, ("png", "svg", "pdf"))
+    if drawing.units not in ("si", "us"):
+        raise InputError.choice("--units", drawing.units, ("si", "us"))
     return drawing
 
 

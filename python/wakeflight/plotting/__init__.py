@@ -41,6 +41,12 @@ class Plot:
     figure: Callable[..., Figure]
     caption: str
     drawable: Callable[..., bool]
+    has_units: bool = False
+    """Whether it can be drawn in several units."""
+
+    def draw(self, data: object, units: str = "si") -> Figure:
+        """The figure of `data`, in the units asked for where it has some."""
+        return self.figure(data, units=units) if self.has_units else self.figure(data)
 
 
 def _one_revolution(run: xr.Dataset) -> bool:
@@ -53,11 +59,11 @@ def _always(_: object) -> bool:
 
 FIGURES: tuple[Plot, ...] = (
     Plot("sticks", sticks.figure, sticks.CAPTION, _always),
-    Plot("body-states", body.figure, body.CAPTION, _always),
-    Plot("forces-moments", loads.figure, loads.CAPTION, _always),
-    Plot("flapping", flapping.figure, flapping.CAPTION, _always),
-    Plot("hub-loads", rotor.figure, rotor.CAPTION, _always),
-    Plot("monitors", monitors.figure, monitors.CAPTION, lambda run: bool(monitors.present(run))),
+    Plot("body-states", body.figure, body.CAPTION, _always, has_units=True),
+    Plot("forces-moments", loads.figure, loads.CAPTION, _always, has_units=True),
+    Plot("flapping", flapping.figure, flapping.CAPTION, _always, has_units=True),
+    Plot("hub-loads", rotor.figure, rotor.CAPTION, _always, has_units=True),
+    Plot("monitors", monitors.figure, monitors.CAPTION, lambda run: bool(monitors.present(run)), has_units=True),
     Plot(
         "inflow-trim",
         trim_maps.from_run,
@@ -73,7 +79,7 @@ FIGURES: tuple[Plot, ...] = (
         wake_geometry.ALL_CAPTION,
         lambda run: "wake" in run,
     ),
-    Plot("flight-path", flight_path.figure, flight_path.CAPTION, _always),
+    Plot("flight-path", flight_path.figure, flight_path.CAPTION, _always, has_units=True),
 )
 
 
@@ -83,11 +89,11 @@ def _all_one_revolution(runs: Mapping[str, xr.Dataset]) -> bool:
 
 COMPARISONS: tuple[Plot, ...] = (
     Plot("sticks", sticks.figure, sticks.CAPTION, _always),
-    Plot("body-states", body.figure, body.CAPTION, _always),
-    Plot("forces-moments", loads.figure, loads.CAPTION, _always),
-    Plot("flapping", flapping.figure, flapping.CAPTION, _always),
-    Plot("hub-loads", rotor.figure, rotor.CAPTION, _always),
-    Plot("monitors", monitors.figure, monitors.CAPTION, lambda runs: bool(monitors.present(runs))),
+    Plot("body-states", body.figure, body.CAPTION, _always, has_units=True),
+    Plot("forces-moments", loads.figure, loads.CAPTION, _always, has_units=True),
+    Plot("flapping", flapping.figure, flapping.CAPTION, _always, has_units=True),
+    Plot("hub-loads", rotor.figure, rotor.CAPTION, _always, has_units=True),
+    Plot("monitors", monitors.figure, monitors.CAPTION, lambda runs: bool(monitors.present(runs)), has_units=True),
     Plot("inflow-maps", comparison.inflow_maps, comparison.INFLOW_CAPTION, _all_one_revolution),
     Plot(
         "wake",
@@ -95,6 +101,6 @@ COMPARISONS: tuple[Plot, ...] = (
         comparison.WAKE_CAPTION,
         lambda runs: len(comparison.wakes(runs)) > 0,
     ),
-    Plot("flight-path", flight_path.figure, flight_path.CAPTION, _always),
+    Plot("flight-path", flight_path.figure, flight_path.CAPTION, _always, has_units=True),
     Plot("cost", comparison.cost, comparison.COST_CAPTION, _always),
 )

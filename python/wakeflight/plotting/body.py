@@ -28,6 +28,6 @@ PANELS = (
 
 
 @styled
-def figure(runs: Runs) -> Figure:
+def figure(runs: Runs, units: str = "si") -> Figure:
     """Nine body states of one run or several: u v w, p q r, roll pitch yaw."""
-    return histories(runs, PANELS, "Body states (x forward, y right, z down)", columns=3)
+    return histories(runs, PANELS, "Body states (x forward, y right, z down)", columns=3, units=units)

@@ -24,6 +24,6 @@ PANELS = (
 
 
 @styled
-def figure(runs: Runs) -> Figure:
+def figure(runs: Runs, units: str = "si") -> Figure:
     """Longitudinal and lateral flapping of one run or several."""
-    return histories(runs, PANELS, "Flapping of the first flap mode", height=2.2)
+    return histories(runs, PANELS, "Flapping of the first flap mode", height=2.2, units=units)

@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 
 from . import style
 from .histories import as_mapping, looks_of
+from .shown import shown
 from .style import styled
 
 if TYPE_CHECKING:
@@ -19,8 +20,9 @@ CAPTION = "Path of the body origin from the start: height gained over distance n
 
 
 @styled
-def figure(runs: Runs) -> Figure:
+def figure(runs: Runs, units: str = "si") -> Figure:
     """Side view and plan view of one run's path or of several."""
+    length, factor = shown("[m]", units)
     runs = as_mapping(runs)
     figure = style.blank(4.4)
     side, plan = figure.subplots(2, 1, sharex=True)
@@ -28,12 +30,13 @@ def figure(runs: Runs) -> Figure:
         time = run.time.values
         marks = np.searchsorted(time, np.arange(0.0, time[-1] + 1e-9))
         for axes, vertical in ((side, -run.down.values), (plan, run.east.values)):
-            axes.plot(run.north.values, vertical, color=color, linestyle=line, label=name)
-            axes.plot(run.north.values[marks], vertical[marks], ".", color=color)
-    side.set_ylabel("height gained [m]")
-    plan.set(xlabel="north [m]", ylabel="east [m]")
+            north, across = factor * run.north.values, factor * vertical
+            axes.plot(north, across, color=color, linestyle=line, label=name)
+            axes.plot(north[marks], across[marks], ".", color=color)
+    side.set_ylabel(f"height gained {length}")
+    plan.set(xlabel=f"north {length}", ylabel=f"east {length}")
     for axes in (side, plan):
-        style.least_span(axes, 4.0)
+        style.least_span(axes, 4.0 * factor)
     # seen from above with north to the right, east points down the page
     plan.invert_yaxis()
     if len(runs) > 1:

@@ -29,6 +29,6 @@ PANELS = (
 
 
 @styled
-def figure(runs: Runs) -> Figure:
+def figure(runs: Runs, units: str = "si") -> Figure:
     """X Y Z and L M N of one run or several."""
-    return histories(runs, PANELS, "Loads on the airframe except gravity, body axes")
+    return histories(runs, PANELS, "Loads on the airframe except gravity, body axes", units=units)

@@ -23,10 +23,10 @@ PANELS = (
     Panel("ct", "$C_T$ [$10^{-3}$]", 1e3, span=0.5, vibrates=True),
     Panel("inflow_mean", "mean inflow λ₀ [–]", span=2e-3),
     Panel("inflow_max", "largest inflow [–]", span=0.02, vibrates=True),
-    Panel("stalled_share", "beyond stall [% of disk]", 1e2, span=2.0),
-    Panel("odd_even", "odd–even [R]", span=1e-6, vibrates=True),
-    Panel("max_displacement", "node step [m]", vibrates=True),
-    Panel("energy", "energy [kJ]", 1e-3, vibrates=True),
+    Panel("stalled_share", "stalled [% of disk]", 1e2, span=2.0),
+    Panel("odd_even", "odd–even [R]", span=1e-6, vibrates=True, of_a_part=True),
+    Panel("max_displacement", "node step [m]", vibrates=True, of_a_part=True),
+    Panel("energy", "energy [kJ]", 1e-3),
 )
 
 
@@ -41,9 +41,9 @@ def present(runs: Runs) -> tuple[Panel, ...]:
 
 
 @styled
-def figure(runs: Runs) -> Figure:
+def figure(runs: Runs, units: str = "si") -> Figure:
     """Monitors present in one run or in all of several."""
     panels = present(runs)
     if not panels:
         raise ValueError("no monitor is in the dataset")
-    return histories(runs, panels, "Power, thrust and monitors", columns=min(2, len(panels)))
+    return histories(runs, panels, "Power, thrust and monitors", columns=min(2, len(panels)), units=units)

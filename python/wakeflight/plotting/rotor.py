@@ -18,16 +18,16 @@ CAPTION = (
     " and weight included. The moment about z is minus the shaft torque. Lines are means over one revolution."
 )
 PANELS = (
-    Panel("hub_force", "force x_h, aft [kN]", 1e-3, "x", span=1.0, vibrates=True),
-    Panel("hub_force", "force y_h, right [kN]", 1e-3, "y", span=1.0, vibrates=True),
-    Panel("hub_force", "force z_h, up [kN]", 1e-3, "z", span=5.0, vibrates=True),
-    Panel("hub_moment", "moment x_h [kN m]", 1e-3, "x", span=1.0, vibrates=True),
-    Panel("hub_moment", "moment y_h [kN m]", 1e-3, "y", span=1.0, vibrates=True),
-    Panel("hub_moment", "moment z_h [kN m]", 1e-3, "z", span=1.0, vibrates=True),
+    Panel("hub_force", "$F_x$, aft [kN]", 1e-3, "x", span=1.0, vibrates=True),
+    Panel("hub_force", "$F_y$, right [kN]", 1e-3, "y", span=1.0, vibrates=True),
+    Panel("hub_force", "$F_z$, up [kN]", 1e-3, "z", span=5.0, vibrates=True),
+    Panel("hub_moment", "$M_x$ [kN m]", 1e-3, "x", span=1.0, vibrates=True),
+    Panel("hub_moment", "$M_y$ [kN m]", 1e-3, "y", span=1.0, vibrates=True),
+    Panel("hub_moment", "$M_z$ [kN m]", 1e-3, "z", span=1.0, vibrates=True),
 )
 
 
 @styled
-def figure(runs: Runs) -> Figure:
+def figure(runs: Runs, units: str = "si") -> Figure:
     """Hub force and moment of one run or several."""
-    return histories(runs, PANELS, "Main rotor loads at the hub, hub axes")
+    return histories(runs, PANELS, "Main rotor loads at the hub, hub axes", units=units)

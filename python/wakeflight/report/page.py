@@ -6,12 +6,14 @@ from __future__ import annotations
 import base64
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..atomic import write_text
 from ..errors import WakeflightError, one_line
 from ..plotting import COMPARISONS, FIGURES, Plot
+from ..plotting.shown import check_units
 from ..plotting.style import save
 from ..progress import Progress, Reported, Silent, heard
 from ..results import by_name
@@ -38,16 +40,17 @@ def write(
     trim: xr.Dataset | None = None,
     progress: Reported = None,
     figure_format: str = "png",
+    units: str = "si",
 ) -> Path:
     """Write the figures (PNG) and `report.html` of one run, or of several by name, into `out_dir`.
 
     With several runs, histories are drawn over each other and maps side by side. `trim` adds the table of the
-    trim's sticks, attitude and residuals. figure_format: `svg` and `pdf` are written beside the PNG files. Returns the path of
-    the page.
+    trim's sticks, attitude and residuals. figure_format: `svg` and `pdf` are written beside the PNG files. units: `si`,
+    or `us` for knots, feet, pounds and horsepower. Returns the path of the page.
     """
     from jinja2 import Environment, PackageLoader, StrictUndefined
 
-    out_dir = Path(out_dir)
+    out_dir, units = Path(out_dir), check_units(units)
     named = by_name(runs)
     first = next(iter(named.values()))
     several = runs is not first
@@ -61,7 +64,7 @@ def write(
     plots = COMPARISONS if several else FIGURES
     formats = dict.fromkeys(("png", figure_format))
     drawn_there(out_dir, [*(f"{plot.name}.{each}" for plot in plots for each in formats), "report.html"])
-    figures, missed = _figures(plots, named if several else first, out_dir, heard(progress), figure_format)
+    figures, missed = _figures(plots, named if several else first, out_dir, heard(progress), (figure_format, units))
     viewable = viewer.viewable(named)
     page = environment.get_template("report.html").render(
         title=_title(first, several),
@@ -69,8 +72,8 @@ def write(
         several=several,
         failures={name: run.attrs["failure"] for name, run in named.items() if not run.attrs.get("finished", 1)},
         warnings=[*_common(warnings, named), *missed],
-        flown=_join(physics, named),
-        tables=_tables(named, trim),
+        flown=_join(partial(physics, units=units), named),
+        tables=_tables(named, trim, units),
         panels=len(named) if viewable else 0,
         wake_data=viewer.data({str(first.attrs.get("maneuver", "flight")): named}, viewer.rotor(first)).replace(
             "</", "<\\/"
@@ -91,11 +94,13 @@ def _title(run: xr.Dataset, several: bool) -> str:
     return f"{run.attrs.get('aircraft', '')}: {flight}, {model}"
 
 
-def _tables(named: Mapping[str, xr.Dataset], trim: xr.Dataset | None) -> dict[str, list[tuple[str, list[str]]]]:
+def _tables(
+    named: Mapping[str, xr.Dataset], trim: xr.Dataset | None, units: str
+) -> dict[str, list[tuple[str, list[str]]]]:
     """Tables of the page: title -> rows of a label and one cell per run."""
     tables = {
-        "Summary": _join(summary, named),
-        "Monitors": _join(watched, named),
+        "Summary": _join(partial(summary, units=units), named),
+        "Monitors": _join(partial(watched, units=units), named),
         "Work done": _join(counters, named),
     }
     if trim is not None:
@@ -121,19 +126,21 @@ def _common(texts_of: Callable[..., list[str]], named: Mapping[str, xr.Dataset])
 
 
 def _figures(
-    plots: tuple[Plot, ...], data: object, out_dir: Path, progress: Progress | Silent, figure_format: str
+    plots: tuple[Plot, ...], data: object, out_dir: Path, progress: Progress | Silent, form: tuple[str, str]
 ) -> tuple[list[Drawn], list[str]]:
     """Draw what can be drawn from the data, write each as PNG and keep it for the page; and what is to be said of others.
 
+    form: format of files beside the PNG, and units.
+
     Numbers are safe before anything is drawn: whatever stops a figure stops that figure alone, but for a disk that is full.
     """
-    drawn, missed = [], []
+    drawn, missed, (figure_format, units) = [], [], form
     progress.phase("figures", len(plots))
     for plot in plots:
         try:
             if not plot.drawable(data):
                 continue
-            figure = plot.figure(data)
+            figure = plot.draw(data, units)
             path = save(figure, out_dir / f"{plot.name}.png")
             if figure_format != "png":
                 save(figure, out_dir / f"{plot.name}.{figure_format}")

@@ -12,14 +12,13 @@ import numpy as np
 from ..condition import described
 from ..plotting.disk import revolutions_flown
 from ..plotting.histories import one_revolution_mean
+from ..plotting.shown import shown
 from ..results.schema import ATTRIBUTES
-from ..units import convert
 from .load_factor import load_factor
 
 if TYPE_CHECKING:
     import xarray as xr
 
-KNOT = convert(1.0, "kt", "m/s")
 COUNTERS = (
     "residual_evaluations",
     "jacobians",
@@ -38,7 +37,7 @@ class Row:
     value: str
 
 
-def physics(run: xr.Dataset) -> list[Row]:
+def physics(run: xr.Dataset, units: str = "si") -> list[Row]:
     """What was flown, first of all: loads, attitudes, rates, path, power, stall and stick margins; loads over one revolution."""
     rows = []
     rows.append(_range("load factor [–]", run, _smooth(run, load_factor(run)), ".2f"))
@@ -46,11 +45,14 @@ def physics(run: xr.Dataset) -> list[Row]:
         rows.append(_range(f"{name} [deg]", run, np.rad2deg(run[name].values), ".1f"))
     for name, label in (("p", "roll"), ("q", "pitch"), ("r", "yaw")):
         rows.append(_range(f"{label} rate [deg/s]", run, np.rad2deg(run[name].values), ".1f"))
-    speed = np.sqrt(sum(run[name].values ** 2 for name in "uvw")) / KNOT
-    rows.append(Row("airspeed [kt]", f"{speed[0]:.1f} at the start, {speed[-1]:.1f} at the end"))
-    rows.append(Row("height gained [m]", f"{float(run['down'][0] - run['down'][-1]):+.1f}"))
+    label, factor = shown("airspeed [m/s]", units)
+    speed = factor * np.sqrt(sum(run[name].values ** 2 for name in "uvw"))
+    rows.append(Row(label, f"{speed[0]:.1f} at the start, {speed[-1]:.1f} at the end"))
+    label, factor = shown("height gained [m]", units)
+    rows.append(Row(label, f"{factor * float(run['down'][0] - run['down'][-1]):+.1f}"))
     if "power" in run:
-        rows.append(_range("power [kW]", run, _smooth(run, run["power"].values) / 1e3, ".0f"))
+        label, factor = shown("power [kW]", units)
+        rows.append(_range(label, run, factor * _smooth(run, run["power"].values) / 1e3, ".0f"))
     if "stalled_share" in run:
         rows.append(_range("disk beyond stall [%]", run, 100.0 * run["stalled_share"].values, ".1f"))
     if "stick_margin" in run:
@@ -67,13 +69,14 @@ def _smooth(run: xr.Dataset, values: np.ndarray) -> np.ndarray:
 def _range(label: str, run: xr.Dataset, values: np.ndarray, form: str) -> Row:
     """Least and largest value, each with its time."""
     least, most = int(np.argmin(values)), int(np.argmax(values))
-    low, high = format(values[least], form), format(values[most], form)
+    # no zero below zero
+    low, high = (format(float(values[k]), f"z{form}") for k in (least, most))
     if low == high:
         return Row(label, low)
     return Row(label, f"{low} at {float(run.time[least]):.2f} s to {high} at {float(run.time[most]):.2f} s")
 
 
-def summary(run: xr.Dataset) -> list[Row]:
+def summary(run: xr.Dataset, units: str = "si") -> list[Row]:
     """Flight, trim and wall clock of one run."""
     attrs = run.attrs
     rows = [Row(NAMES[name], _text(attrs[name])) for name in ("aircraft", "maneuver", "condition") if name in attrs]
@@ -89,7 +92,8 @@ def summary(run: xr.Dataset) -> list[Row]:
         ("power", "power at trim [kW]", 1e-3, 0),
     ):
         if name in attrs:
-            rows.append(Row(label, f"{factor * float(attrs[name]):.{digits}f}"))
+            said, more = shown(label, units)
+            rows.append(Row(said, f"{more * factor * float(attrs[name]):.{digits}f}"))
     for stick in ("collective", "longitudinal", "lateral", "pedal"):
         rows.append(Row(f"{stick} at trim [in]", f"{float(run[stick][0]):.2f}"))
     for angle in ("pitch", "roll"):
@@ -122,7 +126,7 @@ WATCHED = (
 """Monitors of a run: variable, label, which end of it is told, factor of its unit."""
 
 
-def watched(run: xr.Dataset) -> list[Row]:
+def watched(run: xr.Dataset, units: str = "si") -> list[Row]:
     """The extremes of everything that is monitored, and when."""
     rows = []
     for name, label, extreme, factor in WATCHED:
@@ -130,8 +134,9 @@ def watched(run: xr.Dataset) -> list[Row]:
             continue
         values = run[name].values
         worst = extreme(values)
+        said, more = shown(label, units)
         rows.append(
-            Row(label, f"{factor * float(worst):.4g} at {float(run.time[int(np.argmax(values == worst))]):.2f} s")
+            Row(said, f"{more * factor * float(worst):.4g} at {float(run.time[int(np.argmax(values == worst))]):.2f} s")
         )
     return rows
 
