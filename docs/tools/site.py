@@ -24,7 +24,7 @@ SECTIONS: tuple[tuple[str, str, tuple[str, ...]], ...] = (
     (
         "How to",
         "guides/",
-        ("case-files.md", "own-maneuver.md", "aircraft-files.md", "stand.md", "sweeps.md", "stepping.md"),
+        ("case-files.md", "own-maneuver.md", "aircraft-files.md", "stand.md", "sweeps.md", "loads.md", "stepping.md"),
     ),
     ("Examples", "examples/", ()),
     ("Physics", "physics/", ("conventions.md",)),

@@ -46,6 +46,7 @@ class Plan:
     rotor_speed: RotorSpeed | Engine = CONSTANT
     control: Augmentation | None = None
     perturb: Perturbation = ()
+    wakes_per_revolution: int = 4
 
 
 @dataclass(frozen=True)

@@ -49,7 +49,7 @@ PYTHON_ORDER = (
     {"recorder"},
     {"flight_monitors"},
     {"flight_input"},
-    {"flight_folder"},
+    {"flight_folder", "blade_loads"},
     {"flight", "tunnel"},
     {"resuming"},
     {"linear"},
