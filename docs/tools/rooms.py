@@ -23,7 +23,7 @@ ROOMS = {
     "validate": ("validate",),
     "report": ("report",),
     "plotting": ("plotting",),
-    "export": ("export", "acoustics"),
+    "export": ("export", "acoustics", "blade_loads"),
     "linear": ("linear", "handling"),
     "live": ("cockpit", "gym"),
     "flight": (

@@ -30,6 +30,7 @@ SECTIONS: tuple[tuple[str, str, tuple[str, ...]], ...] = (
             "aircraft-files.md",
             "stand.md",
             "sweeps.md",
+            "loads.md",
             "stepping.md",
             "wind.md",
             "ground.md",

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from .acoustics import noise
     from .aircraft import Aircraft, Rotor, load_aircraft, load_rotor
     from .airfoil_loop import airfoil_loop
+    from .blade_loads import blade_loads, wake_velocity
     from .condition import FlightCondition, condition_for
     from .control import (
         AltitudeHold,
@@ -47,6 +48,7 @@ if TYPE_CHECKING:
     from .maneuvers import Maneuver, arrested_descent, load_maneuver, roll_reversal
     from .modes import blade_modes
     from .references import bibtex
+    from .report.load_factor import load_factor
     from .resuming import branch, open_run, recover, rerun, resume
     from .simulation import Simulation
     from .snapshot import Snapshot
@@ -68,6 +70,9 @@ _HOME = {
     "Rotor": "aircraft",
     "load_rotor": "aircraft",
     "airfoil_loop": "airfoil_loop",
+    "blade_loads": "blade_loads",
+    "wake_velocity": "blade_loads",
+    "load_factor": "report.load_factor",
     "FlightCondition": "condition",
     "condition_for": "condition",
     "AltitudeHold": "control",
@@ -195,6 +200,7 @@ __all__ = [
     "arange",
     "arrested_descent",
     "bibtex",
+    "blade_loads",
     "blade_modes",
     "branch",
     "condition_for",
@@ -214,6 +220,7 @@ __all__ = [
     "linearize",
     "load_aircraft",
     "load_control",
+    "load_factor",
     "load_maneuver",
     "load_rotor",
     "noise",
@@ -229,6 +236,7 @@ __all__ = [
     "three_two_one_one",
     "trim",
     "tunnel",
+    "wake_velocity",
     "wing",
 ]
 

@@ -32,6 +32,7 @@ from .rotor_speed import CONSTANT, RotorSpeed, unflown
 from .simulation import Simulation
 from .thinning import thinned
 from .trim import INCH, Trim
+from .units import whole
 from .views import html_table
 from .wind import wind_of
 
@@ -133,6 +134,7 @@ def fly(
     out: str | Path | None = None,
     wind: Any = None,
     perturb: Any = None,
+    wakes_per_revolution: int = 4,
 ) -> Flight:
     """Fly `maneuver` from `start`.
 
@@ -148,6 +150,7 @@ def fly(
     control: what is between sticks and blades: a `wf.Controller`, a list of them or a `wf.Augmentation`; None is the manoeuvre's
     own, where its file has one; an empty list: nothing. actuators: servos behind the mixing unit, `generic` or `wf.Servos(...)`.
     perturb: states the flight begins with beside those of the trim, `{"q": "2 deg/s", "pitch": "1 deg", "u": "1 m/s"}`.
+    wakes_per_revolution: how often the vortices are kept; a divisor of the steps of a revolution, all of them at the most.
 
     wind: `wf.SteadyWind`, `wf.Gust`, `wf.Dryden`, `wf.VonKarman`, `wf.WindField`, several of them in a list, or a function of
     points (n, 3) [m] and time [s] in inertial axes that gives the velocity of the air there (n, 3) [m/s]; held over a coupling
@@ -177,6 +180,7 @@ def fly(
         made,
         wind=wind_of(wind),
         perturb=offsets_of(perturb),
+        wakes_per_revolution=whole("wakes_per_revolution", wakes_per_revolution, 1, 720),
     )
     given = FlightInput.of(start.aircraft, Asked.of(start), plan)
     flying = Flying(start, given, progress)
@@ -210,6 +214,7 @@ class Flying:
             plan.perturb,
         )
         model, clock = self.sim.model, self.sim.clock
+        self.sim.wakes_per_revolution = wakes_kept(plan.wakes_per_revolution, model)
         travel = start.aircraft.stick_travel_in
         maneuver = plan.maneuver.for_aircraft(travel, model.omega).about(start.stick_si / INCH)
         self.n_steps = n_steps = flown_steps(model, maneuver, plan.revolutions)
@@ -226,7 +231,7 @@ class Flying:
         for text in warnings:
             progress(f"warning: {text}")
         self.warnings = warnings
-        self.keeps_sheets = plan.lattice and keeps_sheets(model, n_steps)
+        self.keeps_sheets = plan.lattice and keeps_sheets(model, n_steps, self.sim.wake_steps)
 
     def go(self, folder: RunFolder | None = None, kept: Kept | None = None) -> Flight:
         """Fly. folder: where the flight is kept; kept: the moment from which it goes on."""
@@ -309,6 +314,17 @@ class Flying:
         }
         data = recorder.dataset(attributes, watched, warnings, failure)
         return Flight(start, self.maneuver, data, tuple(warnings), failure)
+
+
+def wakes_kept(asked: int, model: Model) -> int:
+    """Wakes kept of a revolution, if they come at steps of it."""
+    steps = model.steps_per_revolution
+    if asked != 4 and steps % asked:
+        allowed = [n for n in range(1, steps + 1) if steps % n == 0]
+        raise InputError.of(
+            "wakes_per_revolution", asked, f"must divide the {steps} steps: {', '.join(map(str, allowed))}"
+        )
+    return asked
 
 
 def flown_steps(model: Model, maneuver: Maneuver, revolutions: float | None) -> int:

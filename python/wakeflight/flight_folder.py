@@ -41,7 +41,6 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from .control import Augmentation
-    from .model import Model
 
 RUN = "run.nc"
 INCOMPLETE = "run-incomplete.nc"
@@ -328,7 +327,7 @@ class RunFolder:
                 notes.append(f"not used: {path}: the log has {len(log.records)} rows of the {step} before it")
                 continue
             n = int(np.searchsorted(wakes, step))
-            if model.inflow.is_free_wake and n < _wakes_before(model, step):
+            if model.inflow.is_free_wake and n < _wakes_before(sim, step):
                 notes.append(f"not used: {path}: the log of wakes does not reach it")
                 continue
             return replace(kept, rows=step, wakes=n)
@@ -369,11 +368,9 @@ class RunFolder:
         return path
 
 
-def _wakes_before(model: Model, step: int) -> int:
+def _wakes_before(sim: Simulation, step: int) -> int:
     """Wakes kept of the first `step` rows."""
-    from .recorder import SNAPSHOTS_PER_REVOLUTION
-
-    return -(-step // (model.steps_per_revolution // SNAPSHOTS_PER_REVOLUTION))
+    return -(-step // sim.wake_steps)
 
 
 def _of_trim(start: Trim) -> tuple[dict[str, Any], dict[str, bytes]]:

@@ -57,6 +57,7 @@ class Plan:
     lattice: bool = True
     wind: Wind | None = None
     perturb: Perturbation = ()
+    wakes_per_revolution: int = 4
 
 
 @dataclass(frozen=True)

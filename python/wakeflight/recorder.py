@@ -26,7 +26,6 @@ if TYPE_CHECKING:
     from .simulation import ConvergencePhase, Simulation
     from .stepping import Instant
 
-SNAPSHOTS_PER_REVOLUTION = 4
 LARGEST_SHEET = 5_000_000  # numbers; larger lattices of full-span wakes are not kept
 SOMETIMES = ("load_power", "vortex_blade_distance", "rotor_speed", "torque")
 """Numbers of every instant that a run does not keep, or not always."""
@@ -118,7 +117,8 @@ class Recorder:
         self.log, self.control = ControlLog(sim.chain), sim.control
         self.turning, self.wind_told = sim.turning.name, sim.wind_told
         self.n_recorded = n_recorded
-        self.keeps_sheets = lattice and keeps_sheets(sim.model, n_steps)
+        self.wake_steps = sim.wake_steps
+        self.keeps_sheets = lattice and keeps_sheets(sim.model, n_steps, sim.wake_steps)
         self._latest = 0
         self._rows = rows or MemoryRows(fields_of(sim), n_steps + 1)
         self._wakes = wakes or MemoryWakes()
@@ -173,7 +173,7 @@ class Recorder:
         self.scalars["vortex_blade_distance"][k] = monitors["vortex_blade_distance"]
         self.scalars["rotor_speed"][k], self.scalars["torque"][k] = out["rotor_speed"], out["engine_torque"]
         self.scalars["energy"][k], self.scalars["load_power"][k] = out["energy"], out["load_power"]
-        if step % (self.model.steps_per_revolution // SNAPSHOTS_PER_REVOLUTION) == 0:
+        if step % self.wake_steps == 0:
             self._keep_wake(step)
         # a row counts only when it is finite: what cannot be kept ends the flight
         if not np.isfinite(y).all() or not all(map(math.isfinite, out["force"])):
@@ -211,6 +211,7 @@ class Recorder:
             "time": self.time[:n],
             "station": model.stations / model.rotor["radius"],
             "roll": roll,
+            "bank": roll,
             "pitch": pitch,
             "yaw": yaw,
             "azimuth": self.azimuth[:n],
@@ -394,12 +395,12 @@ def check_sample(
         raise NumericalFailure(rotor.faster_than_motion(mach.max(), fastest, places.of(mach[None])))
 
 
-def keeps_sheets(model: Model, n_steps: int) -> bool:
-    """Whether the run is short enough to keep the whole lattice of a full-span wake."""
+def keeps_sheets(model: Model, n_steps: int, wake_steps: int) -> bool:
+    """Whether the run is short enough to keep the whole lattice of a full-span wake, at every so many steps."""
     if not model.inflow.is_full_span:
         return False
     n = model.steps_per_revolution
-    snapshots = 1 + SNAPSHOTS_PER_REVOLUTION * n_steps // n
+    snapshots = 1 + n_steps // wake_steps
     wake = model.inflow.free_wake
     trailers = wake.n_trailers or model.stations.size + 1
     return bool(4 * snapshots * model.n_blades * trailers * (1 + n * wake.turns) <= LARGEST_SHEET)

@@ -91,6 +91,14 @@ class Simulation(Stepping):
 
     model: Model
 
+    wakes_per_revolution = 4
+    """Wakes that a recorder keeps of a revolution."""
+
+    @property
+    def wake_steps(self) -> int:
+        """Coupling steps from one kept wake to the next."""
+        return max(1, self.model.steps_per_revolution // self.wakes_per_revolution)
+
     @checked
     def __init__(
         self,

@@ -50,7 +50,7 @@ PYTHON_ORDER = (
     {"recorder", "transfer"},
     {"flight_monitors"},
     {"flight_input"},
-    {"flight_folder"},
+    {"flight_folder", "blade_loads"},
     {"flight", "tunnel"},
     {"flight_by_hand"},
     {"resuming"},

@@ -7,12 +7,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arguments import checked
 from ..units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     import xarray as xr
 
 
+@checked
 def load_factor(run: xr.Dataset) -> np.ndarray:
     """Load factor n_z = (g cos theta cos phi - (dw/dt + p v - q u))/g (time,) at the body origin, up positive.
 

@@ -121,6 +121,7 @@ RUN: tuple[Variable, ...] = (
     *_table(
         TIME,
         *(f"{kind}_{stick}" for kind in ("sas", "actuator") for stick in CONTROL),
+        "bank",
         "beta_0",
         "power",
         "ct",
@@ -166,6 +167,7 @@ TRIM: tuple[Variable, ...] = (
     *_table(
         (),
         "residual_inflow",
+        "bank",
         "theta_tail",
         "beta_0",
         "beta_1c",

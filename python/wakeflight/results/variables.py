@@ -15,6 +15,7 @@ _ROWS = (
     ("q", "rad/s", "pitch rate, nose up positive"),
     ("r", "rad/s", "yaw rate, nose right positive"),
     ("roll", "rad", "roll attitude (3-2-1), right side down positive"),
+    ("bank", "rad", "roll attitude once more, by a name that can be an attribute: Dataset.roll is a method of xarray"),
     ("pitch", "rad", "pitch attitude (3-2-1), nose up positive"),
     ("yaw", "rad", "heading (3-2-1), clockwise from north seen from above"),
     ("north", "m", "position, north of the start"),

@@ -31,6 +31,7 @@ def dataset(start: Solved, monitors: tuple[Monitor, ...], said: dict[str, str]) 
         **start.stick,
         "pitch": start.pitch,
         "roll": start.roll,
+        "bank": start.roll,
         "theta_0": controls["theta_0"],
         "theta_1c": controls["theta_1c"],
         "theta_1s": controls["theta_1s"],
