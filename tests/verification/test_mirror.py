@@ -10,7 +10,7 @@ import wakeflight as wf
 from wakeflight.model import ROLL, YAW
 from wakeflight.trim.limits import tail_flow
 
-ODD = {"v", "p", "r", "roll", "yaw", "east", "force_y", "moment_x", "moment_z"}
+ODD = {"v", "p", "r", "roll", "bank", "yaw", "east", "force_y", "moment_x", "moment_z"}
 """Variables that change their sign in the mirror; blades, sticks and inflow count in the rotor's own sense."""
 COARSE = {"azimuth_step": "15 deg", "turns": 2}
 
