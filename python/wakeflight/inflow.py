@@ -144,6 +144,10 @@ class Inflow:
         """This model near the ground."""
         return self
 
+    def in_double_precision(self) -> Self:
+        """This model with sums over vortices that small differences can be taken of."""
+        return self
+
     def as_attributes(self) -> dict[str, Any]:
         """Options by name, angles [rad], for the attributes of a result."""
         return {field.name: getattr(self, field.name) for field in fields(self)}
@@ -180,6 +184,7 @@ class FreeWake(Inflow):
     near_wake_angle: Any
     release_radius: float
     update_interval: Any
+    precision: str
 
     @property
     def free_wake(self) -> FreeWake:
@@ -242,6 +247,10 @@ class FreeWake(Inflow):
         if self.far_wake != "repeat":
             raise InputError.of("far_wake", self.far_wake, "must be repeat above ground")
         return self
+
+    def in_double_precision(self) -> Self:
+        """This model with sums over vortices that small differences can be taken of."""
+        return self if self.precision == "double" else replace(self, precision="double")
 
 
 def _grouped(model: str, values: dict[str, Any]) -> dict[str, dict[str, Any]]:

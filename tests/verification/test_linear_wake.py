@@ -73,9 +73,8 @@ def test_the_wake_flown_answers_as_the_following_one_does_and_not_as_the_frozen_
 
 def test_a_wake_must_be_chosen_and_what_is_not_built_is_said(start):
     for wake, said in (
-        (None, "quasi-static, frozen"),
+        (None, "states, quasi-static, frozen"),
         ("dynamic", "quasi-static"),
-        ("states", "not built"),
         ("identified", "not built"),
     ):
         with pytest.raises(wf.InputError, match=said):

@@ -10,7 +10,8 @@ from ..arguments import checked
 from ..errors import InputError
 from ..results import flat_attributes
 from ..trim import Trim
-from .build import BLADES, derivatives, periodic, with_wake, without_rates
+from ..units import number
+from .build import BLADES, derivatives, periodic, with_states, with_wake, without_rates
 from .constant import averaged, decomposed, default_harmonics
 from .instants import STICKS, check_inputs, units_of
 from .linearized import METHODS, Linearized
@@ -18,6 +19,7 @@ from .names import INFLOW
 from .quasi_static import wake_gains
 from .statespace import LinearModel
 from .wake import check_wake
+from .wake_states import WakeStates, states_of_wake
 
 __all__ = ["LinearModel", "Linearized", "linearize"]
 
@@ -34,6 +36,7 @@ def linearize(
     harmonics: Sequence[int] | None = None,
     azimuths: int | None = None,
     stick_rates: bool = True,
+    tolerance: float = 1e-3,
 ) -> LinearModel:
     """Linear model about a trim: x_dot = A x + B u, y = C x + D u, u and y about trim.
 
@@ -41,8 +44,10 @@ def linearize(
     north. stick_rates: whether the rates of the sticks are felt, as blades do: outputs then answer a step of a stick at once by a
     little (D), and B is that of what remains; without them B holds the control derivatives as they are usually meant.
     wake: of a trim with dynamic inflow `dynamic`, its states are states (default), or `frozen`, they stay as trimmed; of one on a
-    free wake `frozen`, the inflow at every station stays as trimmed, or `quasi-static`, it follows hub motion, blade pitch and
-    tilt of the disk at once, as the relaxation wake does (some 25 wakes, half a minute).
+    free wake `frozen`, the inflow at every station stays as trimmed; `quasi-static`, it follows hub motion, blade pitch and tilt
+    of the disk at once, as the relaxation wake does (some 25 wakes); or `states`, it follows as the wake does that is marched in
+    a flight, whose memory becomes states (about a minute). tolerance: Hankel singular value over the largest, from which such a
+    state is kept.
     blades: `multiblade` coordinates, or `individual` ones.
     order: None or `full`; otherwise as for `LinearModel.reduce`.
     method: `harmonic-decomposition`, or `averaging` over azimuth. harmonics: of the state, kept beside its mean; by default those
@@ -64,16 +69,24 @@ def linearize(
     if isinstance(order, str) and order != "full":
         raise InputError.of("order", order, "must be a number of states, names of states to keep, or full")
     wake = check_wake(wake, start.inflow)
+    tolerance = number("tolerance", tolerance, 1e-6, 0.5)
     n = _azimuths(azimuths, start)
     raw = derivatives(start, asked, n)
     if not stick_rates:
         raw = without_rates(raw)
     said: dict[str, Any] = {}
+    marched: WakeStates | None = None
+    if wake == "states":
+        marched = states_of_wake(start, raw.where, tolerance)
+        raw = with_states(start, raw, marched, asked, stick_rates)
+        said = marched.described
     if wake == "quasi-static":
         gains = wake_gains(start)
         raw = with_wake(start, raw, gains, asked)
         said["wake_curvature"] = gains.curvature
-    system = periodic(start, raw, asked, blades, INFLOW if start.inflow.is_dynamic and wake == "frozen" else ())
+    system = periodic(
+        start, raw, asked, blades, INFLOW if start.inflow.is_dynamic and wake == "frozen" else (), marched
+    )
     kept = _harmonics(harmonics, raw.where.n_blades, blades, n) if method == METHODS[0] else ()
     constant = decomposed(system, kept) if kept else averaged(system)
     attributes = {

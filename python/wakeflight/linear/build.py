@@ -15,6 +15,7 @@ from .names import Places, places
 from .outputs import outputs
 from .periodic import PeriodicSystem
 from .quasi_static import WakeGains, by_states
+from .wake_states import WakeStates
 
 BLADES = ("multiblade", "individual")
 
@@ -74,24 +75,55 @@ def with_wake(start: Trim, raw: Raw, gains: WakeGains, inputs: tuple[str, ...]) 
     return replace(raw, a=a, b=b)
 
 
+def with_states(start: Trim, raw: Raw, wake: WakeStates, inputs: tuple[str, ...], rates: bool) -> Raw:
+    """The same with what a marched wake answers at once; `rates`: of the sticks too."""
+    where = raw.where
+    a = raw.a + raw.held @ (wake.at_once @ rotation(where, raw.psi, start.model.omega)[2])
+    b, b_rate = raw.b.copy(), raw.b_rate.copy()
+    for i, name in enumerate(inputs):
+        if name in STICKS:
+            stick = STICKS.index(name)
+            b[:, :, i] += np.einsum("tsl,tl->ts", raw.held, wake.by_sticks[:, :, stick])
+            if rates:
+                b_rate[:, :, i] += np.einsum("tsl,tl->ts", raw.held, wake.by_stick_rates[:, :, stick])
+    return replace(raw, a=a, b=b, b_rate=b_rate)
+
+
 def periodic(
-    start: Trim, raw: Raw, inputs: tuple[str, ...], blades: str, left_out: tuple[str, ...] = ()
+    start: Trim,
+    raw: Raw,
+    inputs: tuple[str, ...],
+    blades: str,
+    left_out: tuple[str, ...] = (),
+    wake: WakeStates | None = None,
 ) -> PeriodicSystem:
-    """The periodic system in multiblade or individual coordinates, without states that are held."""
+    """The periodic system in multiblade or individual coordinates, without states that are held, with those of a wake."""
     where, omega = raw.where, start.model.omega
     multi = blades == "multiblade"
     names = columns(where.n_blades)
-    a, b, b_rate = raw.a, raw.b, raw.b_rate
+    a, b, b_rate, held = raw.a, raw.b, raw.b_rate, raw.held
+    left = rotation(where, raw.psi, omega)[2]
     if multi:
-        left = rotation(where, raw.psi, omega)[2]
-        (a, b), b_rate = to_multiblade(where, raw.psi, omega, a, b), left @ b_rate
+        (a, b), b_rate, held = to_multiblade(where, raw.psi, omega, a, b), left @ b_rate, left @ held
     states = where.named(names if multi else [f"blade_{i + 1}" for i in range(where.n_blades)])
+    again = renumbered(where, 1)
+    swap = np.eye(where.size)[again].T if not multi else np.diag(_signs(where, names))
+    slow = 0
+    if wake is not None:
+        slow = wake.order
+        driven = wake.b if multi else wake.b @ left
+        own = np.zeros((slow, len(inputs)))
+        for i, name in enumerate(inputs):
+            if name in STICKS:
+                own[:, i] = wake.b_sticks[:, STICKS.index(name)]
+        a = _beside(a, held @ wake.c, driven, wake.a)
+        b, b_rate = _below(b, own), _below(b_rate, np.zeros_like(own))
+        states = (*states, *((f"wake_{i + 1}", "1") for i in range(slow)))
+        swap = np.block([[swap, np.zeros((where.size, slow))], [np.zeros((slow, where.size)), np.eye(slow)]])
     given = units_of(inputs)
     si = np.array([each for _, _, each in given])
     b, b_rate = b * si, b_rate * si
     c, d, named = outputs(start.model, where, states, start.state(0.0), a, b)
-    again = renumbered(where, 1)
-    swap = np.eye(where.size)[again].T if not multi else np.diag(_signs(where, names))
     kept = np.array([i for i, (name, _) in enumerate(states) if name not in left_out])
     shown = np.array([i for i, (name, _) in enumerate(named) if name not in left_out])
     return PeriodicSystem(
@@ -107,7 +139,21 @@ def periodic(
         tuple(named[i] for i in shown),
         where.n_blades,
         swap[np.ix_(kept, kept)],
+        slow,
     )
+
+
+def _beside(a: np.ndarray, felt: np.ndarray, driven: np.ndarray, own: np.ndarray) -> np.ndarray:
+    """A (n, s + k, s + k) with the states of a wake behind the others."""
+    n, s, k = a.shape[0], a.shape[1], own.shape[0]
+    whole = np.zeros((n, s + k, s + k))
+    whole[:, :s, :s], whole[:, :s, s:], whole[:, s:, :s], whole[:, s:, s:] = a, felt, driven, own
+    return whole
+
+
+def _below(b: np.ndarray, own: np.ndarray) -> np.ndarray:
+    """B (n, s + k, m) with that of a wake (k, m) below."""
+    return np.concatenate([b, np.broadcast_to(own, (b.shape[0], *own.shape))], axis=1)
 
 
 def _signs(where: Places, names: tuple[str, ...]) -> np.ndarray:

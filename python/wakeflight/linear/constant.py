@@ -86,10 +86,12 @@ def decomposed(system: PeriodicSystem, harmonics: tuple[int, ...]) -> Constant:
 def _acting(system: PeriodicSystem, harmonic: np.ndarray) -> np.ndarray:
     """Which harmonics of which states constant inputs excite; all where states are those of single blades."""
     sign, n = np.diag(system.renumbering), system.passages
+    slow = np.tile(np.arange(sign.size) >= sign.size - system.slow, harmonic.size // sign.size)
+    moves = ~slow | (harmonic == 0)
     if not np.array_equal(np.diag(sign), system.renumbering):
-        return np.ones(harmonic.size, bool)
+        return np.asarray(moves)
     own = np.tile(np.where(sign < 0, n // 2, 0), harmonic.size // sign.size)
-    found: np.ndarray = (np.abs(harmonic) - own) % n == 0
+    found: np.ndarray = moves & ((np.abs(harmonic) - own) % n == 0)
     return found
 
 

@@ -145,6 +145,8 @@ def _group(state: str) -> tuple[str, str]:
         return BODY_GROUPS[state], ""
     if "inflow" in state:
         return "inflow", state.split("inflow")[0].rstrip("_")
+    if state.startswith("wake_"):
+        return "wake", ""
     blade = _BLADE.fullmatch(state)
     if blade is None:
         return "other", state
@@ -174,6 +176,8 @@ def _word(
         return "roll" if moving or abs(root) > SLOW else "spiral"
     if kind == "inflow":
         return f"{label} inflow".strip()
+    if kind == "wake":
+        return kind
     if kind == "cyclic":
         return f"{_whirl(root, label, vector, omega)} {blade}"
     if kind == "collective":

@@ -27,7 +27,8 @@ class PeriodicSystem:
     """A periodic linear system at equally spaced azimuths of a whole revolution.
 
     psi (n,) [rad]; omega [rad/s]; a (n, s, s), b and b_rate (n, s, m), c (n, k, s), d (n, k, m).
-    passages: equal parts of a revolution after which the system is itself again but for `renumbering`, a matrix (s, s).
+    passages: equal parts of a revolution after which the system is itself again but for `renumbering`, a matrix (s, s). slow: how
+    many of the states, the last ones, are those of a wake, which knows no harmonics of them.
     """
 
     psi: np.ndarray
@@ -42,6 +43,7 @@ class PeriodicSystem:
     outputs: Named
     passages: int
     renumbering: np.ndarray
+    slow: int = 0
 
     @property
     def period(self) -> float:

@@ -73,7 +73,7 @@ def balanced(system: Matrices, order: int, judged: np.ndarray) -> Matrices:
     seen = c_s[judged]
     reach = solve_continuous_lyapunov(a_s, -b_s @ b_s.T)
     observe = solve_continuous_lyapunov(a_s.T, -seen.T @ seen)
-    roots = [_root(gramian) for gramian in (reach, observe)]
+    roots = [root_of(gramian) for gramian in (reach, observe)]
     left, sizes, right = svd(roots[1].T @ roots[0])
     k = order - (n - n_stable)
     if k and sizes[k - 1] <= 1e-14 * sizes[0]:
@@ -94,7 +94,7 @@ def balanced(system: Matrices, order: int, judged: np.ndarray) -> Matrices:
     )
 
 
-def _root(gramian: np.ndarray) -> np.ndarray:
+def root_of(gramian: np.ndarray) -> np.ndarray:
     """R with R R^T = gramian, by eigenvalues: gramians are singular to rounding."""
     value, vector = np.linalg.eigh(0.5 * (gramian + gramian.T))
     found: np.ndarray = vector * np.sqrt(np.clip(value, 0.0, None))

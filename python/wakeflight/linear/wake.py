@@ -7,9 +7,8 @@ from ..errors import InputError
 from ..inflow import InflowModel
 
 OF_DYNAMIC = ("dynamic", "frozen")
-OF_WAKE = ("quasi-static", "frozen")
+OF_WAKE = ("states", "quasi-static", "frozen")
 NOT_BUILT = {
-    "states": "markers of a free wake as states of a linear model",
     "identified": "inflow dynamics identified from flights with a free wake",
 }
 

@@ -1,0 +1,200 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""A marched wake as part of a linear model: what it answers at once, and states for what it answers later.
+
+lambda(psi, r, t) = D(psi, r) u + C(psi, r) x, x_dot = A x + B(psi) u: u are motion of the hub, blade pitch and what the blades
+do by their modes; the maps are by azimuth. D holds every mode of every blade. What is answered later is so to motion that the
+fixed frame sees as slow: multiblade coordinates, and the second harmonic that all blades make in turn, whose amplitude is twice
+the mean of its product with their motion. Flight dynamics hold the inflow over a step, blade by blade: what is felt at an azimuth
+is the mean of the maps there and a step before, half a step late.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..errors import InputError
+from ..trim import Trim
+from .marched import Cause, Orbit, causes_of
+from .multiblade import columns, transformation
+from .names import MOTION, Places
+from .realisation import FINE, Realisation, coefficients, filtered, realised
+
+COUNT = 28
+"""Laguerre functions; their pole is the rotor speed."""
+
+
+@dataclass(frozen=True)
+class WakeStates:
+    """Felt inflow of all stations of all blades and its mean (lambdas), by states in multiblade coordinates and sticks, SI.
+
+    at_once (n, lambdas, s), by_sticks and by_stick_rates (n, lambdas, 4); states of the wake: a (k, k), b (n, k, s), b_sticks
+    (k, 4), c (n, lambdas, k).
+    """
+
+    at_once: np.ndarray
+    by_sticks: np.ndarray
+    by_stick_rates: np.ndarray
+    a: np.ndarray
+    b: np.ndarray
+    b_sticks: np.ndarray
+    c: np.ndarray
+    hankel: np.ndarray
+    """Hankel singular values over the largest."""
+    distance: float
+    """How far the wake was from repeating itself: change of inflow over a revolution, over its mean."""
+    misfit: float
+    """What the answers differ from what was fitted to them, over them."""
+    hold: float
+    """Half a step [s], by which the inflow that is felt is late."""
+
+    @property
+    def order(self) -> int:
+        """States of the wake."""
+        return int(self.a.shape[0])
+
+    @property
+    def described(self) -> dict[str, float | int]:
+        """What is to be said of it."""
+        orders = {f"wake_order_{level:.0e}": int(np.sum(self.hankel > level)) for level in (1e-2, 1e-3, 1e-4)}
+        return {
+            "wake_order": self.order,
+            **orders,
+            "wake_orbit": self.distance,
+            "wake_misfit": self.misfit,
+            "wake_hold": self.hold,
+        }
+
+
+def states_of_wake(start: Trim, where: Places, tolerance: float) -> WakeStates:
+    """The marched wake about the trim, realised to `tolerance`."""
+    orbit = Orbit(start, where)
+    if orbit.model.remembers:
+        raise InputError.of("wake", "states", "needs sections without a memory of their own: unsteady = quasi-steady")
+    slow, quick = causes_of(where, list(range(where.n_modes)))
+    at_once = orbit.at_once(quick)
+    found, misfit = _realised(orbit, slow, (quick, at_once), tolerance)
+    return _coupled(orbit, where, (slow, found), (quick, at_once), misfit)
+
+
+def _realised(
+    orbit: Orbit, slow: list[Cause], known: tuple[list[Cause], np.ndarray], tolerance: float
+) -> tuple[Realisation, float]:
+    """The wake's answers to pulses less what is answered at once, as a system; what the fit leaves."""
+    omega, n_width = orbit.omega, known[1].shape[1]
+    dt = 2 * np.pi / omega / orbit.n
+    whole_pulse = orbit.pulse(np.arange(orbit.most * orbit.n * FINE + 1) / FINE)[0]
+    functions = filtered(omega, COUNT, dt, whole_pulse)
+    c = np.zeros((COUNT, orbit.n * n_width + 1, len(slow)))
+    left, whole = 0.0, 0.0
+    for i, cause in enumerate(slow):
+        inflow, mean = orbit.later(cause)
+        every = np.arange(mean.size)
+        inflow -= np.array([_at_once(orbit, cause, known, int(step)) for step in every])
+        # held: the mean of this step's and the last's
+        inflow[1:] = 0.5 * (inflow[1:] + inflow[:-1])
+        for phase in range(orbit.passage):
+            at = every[phase :: orbit.passage]
+            by_row = np.stack([np.roll(inflow[k], k // orbit.passage, axis=0) for k in at])
+            fitted = coefficients(functions[at], by_row)
+            left += np.sum((by_row - np.tensordot(functions[at], fitted, 1)) ** 2) * cause.size**2
+            whole += np.sum(by_row**2) * cause.size**2
+            for blade in range(orbit.n_blades):
+                k = phase + blade * orbit.passage
+                c[:, k * n_width : (k + 1) * n_width, i] = fitted[:, blade]
+        c[:, -1, i] = coefficients(functions[every], mean)
+    weights = np.resize(orbit.model.area_weights, n_width) / orbit.n
+    outputs = np.sqrt(np.append(np.tile(weights, orbit.n), 1.0))
+    inputs = np.array([cause.unit(orbit.model) for cause in slow])
+    return realised(c, omega, tolerance, (outputs, inputs)), float(np.sqrt(left / whole))
+
+
+def _at_once(orbit: Orbit, cause: Cause, known: tuple[list[Cause], np.ndarray], step: int) -> np.ndarray:
+    """What is answered at once (n_blades, n_width) to the pulse of a cause `step` steps after the beginning."""
+    column = {each.name: i for i, each in enumerate(known[0])}
+    (value,), (rate,) = orbit.pulse(np.array([step]))
+    here = known[1][orbit.rows(step)]
+    if not cause.of_blades:
+        found: np.ndarray = value * here[:, :, column[cause.name]]
+        return found + rate * here[:, :, column[f"{cause.name}_rate"]] if cause.has_rate else found
+    parts = orbit.in_columns(cause, step, value, rate)
+    found = np.zeros(here.shape[:2])
+    for known_cause in known[0]:
+        if known_cause.of_blades and known_cause.index == cause.index:
+            size = parts[int(known_cause.rate_alone)][known_cause.column]
+            found += size * _turned(orbit, known_cause, step) * here[:, :, column[known_cause.name]]
+    return found
+
+
+def _turned(orbit: Orbit, cause: Cause, k: int) -> float:
+    """Sign of a coordinate that changes it with every passage."""
+    differential = cause.of_blades and columns(orbit.n_blades)[cause.column] == "d"
+    return -1.0 if differential and (k % orbit.n) // orbit.passage % 2 else 1.0
+
+
+def _coupled(
+    orbit: Orbit,
+    where: Places,
+    later: tuple[list[Cause], Realisation],
+    once: tuple[list[Cause], np.ndarray],
+    misfit: float,
+) -> WakeStates:
+    """By states and sticks of the linear model, blade after blade as the inflow is felt."""
+    slow, found = later
+    quick, maps = once
+    n, n_width = orbit.n, maps.shape[1]
+    names = [name for name, _ in where.named(columns(where.n_blades))]
+    lag = 0.5 * (2 * np.pi / orbit.omega / n)
+    matrix = np.asarray(orbit.start.model.data["rigging"]["matrix"])[:3]
+
+    def felt(values: np.ndarray, k: int) -> np.ndarray:
+        """A map (n, n_width, ...) as all blades meet it at azimuth k of the first."""
+        return np.asarray(values[orbit.rows(k)].reshape(-1, *values.shape[2:]))
+
+    lambdas = where.n_blades * n_width + 1
+    at_once = np.zeros((n, lambdas, where.size))
+    controls, rates = np.zeros((n, lambdas, 3)), np.zeros((n, lambdas, 3))
+    for i, cause in enumerate(quick):
+        for k in range(n):
+            here, before = (_turned(orbit, cause, j) * felt(maps[:, :, i], j) for j in (k, k - 1))
+            mean = 0.5 * (here + before)
+            late = -lag * before
+            if cause.kind == "control":
+                (rates if cause.rate_alone else controls)[k, :-1, cause.index] += mean
+                if not cause.rate_alone:
+                    rates[k, :-1, cause.index] += late
+            elif cause.kind == "hub":
+                at_once[k, :-1, MOTION.index(cause.name)] += mean
+            else:
+                at_once[k, :-1, names.index(cause.name)] += mean
+                if not cause.rate_alone:
+                    at_once[k, :-1, names.index(f"{cause.name}_rate")] += late
+    b, b_controls = np.zeros((n, found.order, where.size)), np.zeros((found.order, 3))
+    for i, cause in enumerate(slow):
+        by = found.matrices[1][:, i]
+        if cause.kind == "control":
+            b_controls[:, cause.index] = by
+        elif cause.kind == "harmonic":
+            # its amplitude is what the blades' motion has of it, twice the mean over them
+            places = [names.index(f"{where.labels[cause.index]}_{each}") for each in columns(where.n_blades)]
+            one = transformation(where.n_blades, 2 * np.pi * np.arange(n) / n)
+            share = np.array([orbit.shapes(cause, k)[0] @ one[k] for k in range(n)]) * 2.0 / where.n_blades
+            b[:, :, places] += by[:, None] * share[:, None, :]
+        else:
+            b[:, :, names.index(cause.name)] += by
+    c = found.matrices[2]
+    c_maps = c[:-1].reshape(n, n_width, found.order)
+    return WakeStates(
+        at_once,
+        controls @ matrix,
+        rates @ matrix,
+        found.matrices[0],
+        b,
+        b_controls @ matrix,
+        np.stack([np.vstack([felt(c_maps, k), c[-1:]]) for k in range(n)]),
+        found.hankel,
+        orbit.distance,
+        misfit,
+        lag,
+    )

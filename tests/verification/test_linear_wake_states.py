@@ -1,0 +1,170 @@
+"""The marched wake as states of a linear model: what it answers, how few states say it, and the flown wake beside it."""
+
+import numpy as np
+import pytest
+
+import wakeflight as wf
+from wakeflight.linear.marched import Orbit, causes_of, spline
+from wakeflight.linear.names import places
+from wakeflight.linear.realisation import FINE, coefficients, filtered, laguerre, realised
+from wakeflight.linear.response import frequency_response, time_response
+
+WAKE = {"azimuth_step": "10 deg", "turns": 2, "trailers": "tip"}
+HOLD = {"pitch": "10 in/rad", "pitch_rate": "6 in/(rad/s)", "roll": "2 in/rad", "yaw_rate": "4 in/(rad/s)"}
+GAINS = {("longitudinal", "pitch"): 10.0, ("longitudinal", "q"): 6.0, ("lateral", "roll"): 2.0, ("pedal", "r"): 4.0}
+
+
+def trimmed(speed, **wake):
+    condition = wf.FlightCondition(speed=speed, flight_path="0 deg", altitude="0 ft", weight="16000 lbf")
+    aircraft = wf.load_aircraft("uh60a").discretised(n_modes=3, n_elements=4)
+    return wf.trim(aircraft, condition, inflow=wf.RelaxationWake(**{**WAKE, **wake}))
+
+
+@pytest.fixture(scope="module")
+def start():
+    return trimmed("80 kt")
+
+
+@pytest.fixture(scope="module")
+def orbit(start):
+    return Orbit(start, places(start.model))
+
+
+@pytest.fixture(scope="module")
+def models(start):
+    return {wake: wf.linearize(start, wake=wake) for wake in ("states", "quasi-static", "frozen")}
+
+
+def test_laguerre_functions_are_orthonormal_and_a_known_system_is_found_again():
+    pole, count, dt = 20.0, 20, 0.01
+    fine = spline(np.arange(200 * FINE + 1) / FINE / 9.0)[0]
+    functions = filtered(pole, count, dt, fine)
+    system = (
+        np.array([[-4.0, 9.0, 0.0], [-9.0, -4.0, 0.0], [0.0, 0.0, -12.0]]),
+        np.array([[1.0], [0.5], [2.0]]),
+        np.array([[1.0, 2.0, -1.0], [0.0, 1.0, 3.0]]),
+        np.zeros((2, 1)),
+    )
+    answers = time_response(system, dt / FINE * np.arange(fine.size), fine[:, None])[0][::FINE]
+    c = coefficients(functions, answers)[:, :, None]
+    found = realised(c, pole, 1e-3, (np.ones(2), np.ones(1)))
+    assert found.order_for(1e-2) == 3
+    w = np.geomspace(0.3, 20.0, 20)
+    here = frequency_response((*found.matrices, np.zeros((2, 1))), w)
+    there = frequency_response(system, w)
+    assert np.abs(here - there).max() < 0.01 * np.abs(there).max()
+    # orthonormal: the integral of the products of their impulse responses
+    a, b, _, _ = laguerre(pole, 4)
+    from scipy.linalg import solve_continuous_lyapunov
+
+    assert np.allclose(solve_continuous_lyapunov(a, -b @ b.T), np.eye(4), atol=1e-12)
+
+
+def test_the_pulse_is_smooth_and_its_rate_is_its_slope(orbit):
+    steps = np.arange(0.0, 50.0, 0.01)
+    value, rate = orbit.pulse(steps)
+    dt = 0.01 * 2 * np.pi / orbit.omega / orbit.n
+    assert value.max() == pytest.approx(1.0, abs=1e-4) and value[steps >= 4 * orbit.passage].max() == 0.0
+    assert np.abs(np.gradient(value, dt) - rate).max() < 1e-3 * np.abs(rate).max()
+
+
+def test_motion_in_turn_is_the_same_in_multiblade_coordinates(orbit):
+    _, quick = causes_of(orbit.where, [])
+    slow, _ = causes_of(orbit.where, [1])
+    cause = next(each for each in slow if each.name == "flap_1_2s")
+    assert any(each.name == "flap_1_d_rate" for each in quick)
+    for step in (0, 5, 13):
+        z, own = orbit.in_columns(cause, step, 0.3, 2.0)
+        # a second harmonic of equal blades is the differential coordinate alone
+        assert np.abs(z[:3]).max() < 1e-12 and np.abs(own[:3]).max() < 1e-10
+        psi = 2 * np.pi * step / orbit.n
+        assert z[3] == pytest.approx(0.3 * np.sin(2 * psi))
+        assert own[3] == pytest.approx(2.0 * np.sin(2 * psi) + 0.3 * 2 * orbit.omega * np.cos(2 * psi))
+
+
+def test_the_orbit_repeats_itself_and_differences_about_it_are_of_second_order(orbit):
+    assert orbit.distance < 1e-8
+    slow, _ = causes_of(orbit.where, [])
+    cause = next(each for each in slow if each.name == "p")
+    # below the kinks of the section tables halving a change quarters the error
+    one, half, quarter = (orbit.later(cause, share)[0][: 2 * orbit.n] for share in (4e-2, 2e-2, 1e-2))
+    first, second = (np.linalg.norm(a - b) for a, b in ((one, half), (half, quarter)))
+    assert first < 2e-3 * np.linalg.norm(one) and second < 0.3 * first
+
+
+def test_states_follow_slowly_what_the_relaxation_wake_follows_at_once(models):
+    small = {wake: models[wake].reduce(8) for wake in models}
+    heave = {wake: float(model.A.sel(state="w", state_="w")) for wake, model in small.items()}
+    assert heave["frozen"] < 1.3 * heave["quasi-static"] and heave["states"] == pytest.approx(
+        heave["quasi-static"], rel=0.08
+    )
+    thrust = {wake: float(model.B.sel(state="w", input="collective")) for wake, model in small.items()}
+    assert thrust["states"] == pytest.approx(thrust["quasi-static"], rel=0.08)
+    assert thrust["frozen"] < 1.4 * thrust["quasi-static"]
+
+
+def test_the_states_are_stable_and_told(models):
+    model = models["states"]
+    told = model.attributes
+    assert told["wake_order_1e-02"] < told["wake_order"] == told["wake_order_1e-03"] < told["wake_order_1e-04"]
+    assert told["wake_orbit"] < 1e-8 and told["wake_misfit"] < 0.01
+    assert told["wake_hold"] == pytest.approx(np.pi / model.omega / 36)
+    wake = [i for i, (name, _) in enumerate(model.states) if name.startswith("wake_")]
+    assert len(wake) == told["wake_order"]
+    assert np.linalg.eigvals(model.matrices[0][np.ix_(wake, wake)]).real.max() < 0.0
+    assert "wake" in set(model.modes()["name"].values.tolist())
+
+
+def closed(model):
+    """Roll rate by the pilot's lateral stick with attitudes held."""
+    a, b, c, d = model.matrices
+    inputs, outputs = ([name for name, _ in named] for named in (model.inputs, model.outputs))
+    k = np.zeros((len(inputs), len(outputs)))
+    for (stick, y), gain in GAINS.items():
+        k[inputs.index(stick), outputs.index(y)] = gain
+    inner = np.linalg.inv(np.eye(len(inputs)) + k @ d)
+    i, p = inputs.index("lateral"), outputs.index("p")
+    return a - b @ inner @ k @ c, b @ inner[:, [i]], (c - d @ inner @ k @ c)[[p]], (d @ inner)[[p]][:, [i]]
+
+
+def test_a_lateral_sweep_is_that_of_the_flown_wake_and_not_with_a_frozen_one(start, models):
+    low, high, seconds = 1.0, 18.0, 8.0
+    sweeps = [
+        wf.frequency_sweep("lateral", f"{inches} in", f"{low} rad/s", f"{high} rad/s", f"{seconds} s", "0.2 s", "0.5 s")
+        for inches in (0.15, -0.15)
+    ]
+    flown = [
+        wf.fly(start, each, inflow=wf.TimeMarchingWake(**WAKE), integrator="fixed", control=[wf.AttitudeHold(**HOLD)])
+        for each in sweeps
+    ]
+    time = flown[0].data["time"].values
+    rate = 0.5 * (flown[0].data["p"].values - flown[1].data["p"].values)
+    fine = np.linspace(0.0, time[-1], 2 * time.size - 1)
+    stick = np.interp(fine, *np.array(dict(sweeps[0].corners_of)["lateral"]).T)
+    w = np.geomspace(1.3, 15.0, 12)
+
+    def about(values):
+        """Response by the part of the record in which the sweep goes through each frequency."""
+        passed = 0.2 + np.log(w / low) / np.log(high / low) * (seconds - 0.2)
+        width = np.maximum(1.6 * 2 * np.pi / w, 0.4)
+        window = np.exp(-0.5 * ((time - passed[:, None]) / width[:, None]) ** 2 - 1j * w[:, None] * time)
+        return (window @ values) / (window @ stick[::2])
+
+    off = {}
+    for wake, model in models.items():
+        ratio = about(time_response(closed(model), fine, stick[:, None])[0][::2, 0]) / about(rate)
+        off[wake] = np.abs(20 * np.log10(np.abs(ratio))).max(), np.abs(np.degrees(np.angle(ratio))).max()
+    assert off["states"][0] < 0.3 and off["states"][1] < 1.0, off
+    assert off["frozen"][0] > 1.0 and off["frozen"][1] > 5.0, off
+    assert off["states"][0] < 0.5 * off["quasi-static"][0] and off["states"][1] < 0.5 * off["quasi-static"][1], off
+
+
+def test_without_a_periodic_orbit_it_is_refused_with_the_distance_from_one(monkeypatch):
+    from wakeflight.linear import marched
+
+    monkeypatch.setattr(marched, "MOST", 6)
+    start = trimmed("20 kt", turns=3)
+    with pytest.raises(
+        wf.NumericalFailure, match=r"no periodic orbit: after 6 revolutions .* changes by .* of its mean"
+    ):
+        wf.linearize(start, wake="states")
