@@ -44,7 +44,7 @@ if TYPE_CHECKING:
     from .flight import Flight, fly
     from .handling import HandlingQualities, handling_qualities
     from .inflow import AnnularInflow, DynamicInflow, RelaxationWake, TimeMarchingWake, inflow_model
-    from .linear import LinearModel, linearize
+    from .linear import LinearModel, inflow_constants, linearize
     from .maneuvers import Maneuver, arrested_descent, load_maneuver, roll_reversal
     from .modes import blade_modes
     from .references import bibtex
@@ -114,6 +114,7 @@ _HOME = {
     "TimeMarchingWake": "inflow",
     "inflow_model": "inflow",
     "LinearModel": "linear",
+    "inflow_constants": "linear",
     "linearize": "linear",
     "Maneuver": "maneuvers",
     "arrested_descent": "maneuvers",
@@ -216,6 +217,7 @@ __all__ = [
     "grid",
     "handling_qualities",
     "induced_velocity",
+    "inflow_constants",
     "inflow_model",
     "linearize",
     "load_aircraft",

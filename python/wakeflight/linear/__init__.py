@@ -18,10 +18,11 @@ from .linearized import METHODS, Linearized
 from .names import INFLOW
 from .quasi_static import wake_gains
 from .statespace import LinearModel
+from .three_states import inflow_constants
 from .wake import check_wake
 from .wake_states import WakeStates, states_of_wake
 
-__all__ = ["LinearModel", "Linearized", "linearize"]
+__all__ = ["LinearModel", "Linearized", "inflow_constants", "linearize"]
 
 
 @checked

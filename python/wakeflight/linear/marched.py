@@ -17,6 +17,7 @@ import numpy as np
 
 from ..errors import NumericalFailure, known
 from ..exchange import Exchange
+from ..inflow import trim_model
 from ..model import CompiledRotor, Model
 from ..simulation import flight_model
 from ..trim import Trim
@@ -75,6 +76,18 @@ class Cause:
     def size(self) -> float:
         """Change to either side."""
         return SHARE * SIZES.get(self.name, PITCH if self.kind == "control" else TILT)
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What a pulse does, per unit of its cause, at every step since the beginning."""
+
+    inflow: np.ndarray
+    """Inflow (steps + 1, n_blades, n_width)."""
+    mean: np.ndarray
+    """Its mean over the latest passages of all azimuths (steps + 1,)."""
+    circulation: np.ndarray
+    """Bound circulation (steps + 1, n_blades, n_stations) [m2/s]."""
 
 
 class Orbit:
@@ -183,12 +196,13 @@ class Orbit:
         value, slope = spline(np.asarray(step) / self.passage)
         return value, slope / (self.passage * dt)
 
-    def later(self, cause: Cause, share: float = 1.0) -> tuple[np.ndarray, np.ndarray]:
-        """Inflow (steps + 1, n_blades, n_width) and mean (steps + 1,) by a pulse of the cause, per unit of it."""
+    def later(self, cause: Cause, share: float = 1.0) -> Answer:
+        """What a pulse of the cause does, until the wake has forgotten it."""
         size = share * cause.size
         sides = (size, -size)
         both = [self.exchange.copy() for _ in sides]
         inflow, mean = [np.zeros_like(self.exchange.inflow)], [0.0]
+        circulation = [np.zeros_like(self.exchange.circulation)]
         largest, turn = 0.0, 0
         for turn in range(self.most):
             for step in range(turn * self.n + 1, (turn + 1) * self.n + 1):
@@ -197,15 +211,17 @@ class Orbit:
                     self.stepped(exchange, step, cause, side * value, side * rate)
                 up, down = both
                 inflow.append((np.array(up.inflow) - np.array(down.inflow)) / (2 * size))
+                circulation.append((np.array(up.circulation) - np.array(down.circulation)) / (2 * size))
                 mean.append((up.held(self.begin + step)[1] - down.held(self.begin + step)[1]) / (2 * size))
             last = float(np.abs(inflow[-self.n :]).max())
             largest = max(largest, last)
             if turn * self.n >= KNOTS * self.passage and last < FORGOTTEN * largest:
                 break
         forgotten = (self.most - turn - 1) * self.n
-        return (
+        return Answer(
             np.concatenate([inflow, np.zeros((forgotten, *inflow[0].shape))]),
             np.concatenate([mean, np.zeros(forgotten)]),
+            np.concatenate([circulation, np.zeros((forgotten, *circulation[0].shape))]),
         )
 
 
@@ -243,20 +259,15 @@ def causes_of(where: Places, remembered: list[int]) -> tuple[list[Cause], list[C
     return [*hub, *controls, *slow], [*hub, *controls, *rates, *blades]
 
 
-def _doubled(model: Model) -> Model:
-    """The same model with the sums of its wake in double precision."""
-    inflow = model.inflow.in_double_precision()
-    return model if inflow is model.inflow else Model.build(model.aircraft, model.condition, inflow)
-
-
 def _begun(start: Trim) -> Exchange:
-    """The marched wake of this trim, from its relaxation wake, in double precision."""
-    model = _doubled(flight_model(start, "time-marching"))
-    steady = known(start.wake)
-    trimmed = _doubled(start.model)
-    if trimmed is not start.model:
-        # the same wake anew: it need not rest, marching brings it to its orbit
-        steady = WakeInTrim(trimmed, start.inflow_map)
-        motion = trimmed.core.trim_motion(start.problem, start.x, start.inflow_map.shape[0])
-        steady.core.converge(trimmed.core, start.state(0.0), start.stick_si, motion, ITERATIONS)
+    """The marched wake of this trim, from its relaxation wake, with sums in double precision."""
+    model, steady = flight_model(start, "time-marching"), known(start.wake)
+    inflow = model.inflow.in_double_precision()
+    if inflow is not model.inflow:
+        # the same wakes anew: the first need not rest, marching brings it to its orbit
+        model = Model.build(start.aircraft, start.condition, inflow)
+        relaxed = Model.build(start.aircraft, start.condition, trim_model(start.model.inflow).in_double_precision())
+        steady = WakeInTrim(relaxed, start.inflow_map)
+        motion = relaxed.core.trim_motion(start.problem, start.x, start.inflow_map.shape[0])
+        steady.core.converge(relaxed.core, start.state(0.0), start.stick_si, motion, ITERATIONS)
     return Exchange.marching(model, steady)

@@ -89,7 +89,8 @@ def _realised(
     c = np.zeros((COUNT, orbit.n * n_width + 1, len(slow)))
     left, whole = 0.0, 0.0
     for i, cause in enumerate(slow):
-        inflow, mean = orbit.later(cause)
+        answer = orbit.later(cause)
+        inflow, mean = answer.inflow, answer.mean
         every = np.arange(mean.size)
         inflow -= np.array([_at_once(orbit, cause, known, int(step)) for step in every])
         # held: the mean of this step's and the last's
