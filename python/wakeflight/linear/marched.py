@@ -38,8 +38,9 @@ FORGOTTEN = 2e-4
 
 SHARE = 0.1
 """Changes to either side over those that a relaxation wake is given: sums are exact, and kinks of section tables are near."""
-HARMONICS = (("2c", 2, 0.0), ("2s", 2, -0.5 * np.pi))
-"""Motion that every blade makes in turn beyond the tilt of the disk: name, harmonic of its azimuth, phase [rad]."""
+HARMONICS = (("1c", 1, 0.0), ("1s", 1, -0.5 * np.pi), ("2c", 2, 0.0), ("2s", 2, -0.5 * np.pi))
+"""Motion that every blade makes in turn, where multiblade coordinates do not hold it still: name, harmonic of its azimuth, phase
+[rad]."""
 
 
 @dataclass(frozen=True)
