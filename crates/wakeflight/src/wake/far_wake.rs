@@ -12,10 +12,9 @@
 
 use super::choices::Trailers;
 use super::filament::Filaments;
-use super::lattice::Viewer;
 use super::motion::HubMotion;
 use super::options::WakeOptions;
-use super::sink::Sink;
+use super::sink::{Sink, Viewer};
 use super::vectors::sum;
 use std::f64::consts::TAU;
 

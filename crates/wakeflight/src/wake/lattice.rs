@@ -11,16 +11,7 @@ use super::choices::{ShedWake, Trailers};
 use super::far_wake;
 use super::filament::Filaments;
 use super::options::WakeOptions;
-use super::sink::Sink;
-
-/// Who looks at the free vortices of one blade.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Viewer {
-    /// First marker whose trailing vortices are seen: the last of the near wake for the blade itself, else 0.
-    pub first: usize,
-    /// Least core radius [m].
-    pub floor: f64,
-}
+use super::sink::{Sink, Viewer};
 
 /// Appends filament `i` from the viewer's first marker on, and its far wake; `far`: that which is carried, or none.
 pub(crate) fn push_filament(

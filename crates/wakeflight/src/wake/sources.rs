@@ -3,9 +3,9 @@
 use super::choices::{Precision, Trailers};
 use super::filament::Filaments;
 use super::instant::RotorInstant;
-use super::lattice::{Viewer, bound, push_filament, push_shed};
+use super::lattice::{bound, push_filament, push_shed};
 use super::options::WakeOptions;
-use super::sink::{Above, Sink};
+use super::sink::{Above, Sink, Viewer};
 use crate::vortex::induced_velocity::Segments;
 use crate::vortex::sources::{Mark, Packing, Part, Sources};
 
