@@ -124,8 +124,8 @@ class WakeInTrim:
     def widest(self) -> float:
         """Widest circle whose mean can be trimmed on, over the tip speed.
 
-        Circulation follows the inflow in proportion, so that the mean of a circle of radius w is off its centre by the next order,
-        w^2/lambda_0: no more than the inflow has to be known to.
+        Circulation follows the inflow in proportion, so that the mean of a circle of radius w is off its centre by the next
+        order, w^2/lambda_0: no more than the inflow has to be known to.
         """
         mean = abs(float(np.mean(self.inflow_map @ self.model.area_weights)))
         return max(INFLOW_KNOWN, math.sqrt(INFLOW_KNOWN * mean))
