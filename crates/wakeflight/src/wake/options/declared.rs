@@ -27,7 +27,7 @@ declare! {
         rotor: WakeRotor
     {
         /// Length of the free filaments in turns; a whole number of azimuth steps.
-        turns: f64 = by_regime(4.0, 5.0, 8.0), lattice(always(2.0)), unit("turns"), between(1.0, 20.0), source(&["leishman2002"]),
+        turns: f64 = by_regime(4.0, 5.0, 4.0), lattice(always(2.0)), unit("turns"), between(1.0, 20.0), source(&["leishman2002"]),
             finer_larger("wake-turns", None);
 
         /// Step of azimuth, of wake age and of the coupling; divides the angle between blades.
@@ -114,7 +114,7 @@ declare! {
 
         /// Turns of far wake behind the free filaments: repeats of the last turn, carried on by a wake that marches; of a full-span
         /// wake in its mean circulation and in steps of 30 deg. None with a `cylinder`.
-        far_wake_turns: usize = by_regime(0, 2, 0), lattice(by_regime(2, 6, 2).at_low_speed(4)), unit("turns"), between(0.0, 50.0),
+        far_wake_turns: usize = by_regime(0, 2, 12), lattice(by_regime(2, 6, 2).at_low_speed(4)), unit("turns"), between(0.0, 50.0),
             finer_larger("far-wake-turns", None);
 
         /// Where the tip vortex leaves the blade, over the radius.
