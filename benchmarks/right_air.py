@@ -3,9 +3,9 @@
 
     python benchmarks/right_air.py OUT.json [NAME ...]
 
-NAME: wakes of `WAKES` (all). A clamped rotor of four blades at 80 kt carries 72 kN and a hub moment of either sign
+NAME: wakes of `WAKES` (all). A clamped rotor of four blades at 0, 20, 80 kt carries 72 kN and a hub moment of either sign
 (|C_M| = 0.00097): differences of the harmonics of the inflow over those of the moment. The roll is the right step of the
-roll reversal, marched from its own trim.
+roll reversal, marched from its own trim. Level flight: trims, and flights of two seconds with the sticks held.
 """
 
 import json
@@ -21,7 +21,8 @@ from wakeflight.results import disk
 ROTOR = Path(__file__).parent / "clamped-rotor.toml"
 MOMENT = 1e5  # N m
 INSTANTS = (1.2, 2.0)  # s, within the roll to the right
-LEVEL = (0, 20, 40, 80, 120, 140)  # kt
+LEVEL = (0, 10, 20, 30, 40, 80, 120, 140)  # kt
+STAND = (0, 20, 80)  # kt
 REFERENCE = {
     "trailers": "full-span",
     "n_trailers": 9,
@@ -30,6 +31,7 @@ REFERENCE = {
     "turns": 3,
     "far_wake_turns": 0,
 }
+HELD = wf.Maneuver("held", {"lateral": [(0.0, 0.0), (0.1, 0.0)]}, seconds=2.0)
 WAKES = {
     "standard": {},
     "paper": {"preset": "paper"},
@@ -53,8 +55,8 @@ def harmonics(data):
     return np.array(disk.first_harmonics(inflow, psi, station, weights))
 
 
-def by_moments(name):
-    """Derivatives of lambda_0 by C_M and of lambda_1s by C_L."""
+def by_moments(name, speed):
+    """Derivatives of lambda_0 by C_M and of lambda_1s by C_L at a speed [kt]; the reason where the stand does not settle."""
     rotor = wf.load_rotor(ROTOR)
     radius, omega, density = rotor.rotor.radius, rotor.rotor.omega, 1.225
     scale = density * np.pi * radius**2 * (omega * radius) ** 2 * radius
@@ -63,8 +65,11 @@ def by_moments(name):
         ends = []
         for sign in (-1.0, 1.0):
             moments = {"hub_pitch": "0 N*m", "hub_roll": "0 N*m", axis: f"{sign * MOMENT} N*m"}
-            stand = {"thrust": "72 kN", "speed": "80 kt", "shaft_angle": "0 deg", **moments}
-            ends.append(harmonics(wf.tunnel(ROTOR, inflow=wake(wf.RelaxationWake, name), **stand).data))
+            stand = {"thrust": "72 kN", "speed": f"{speed} kt", "shaft_angle": "0 deg", **moments}
+            try:
+                ends.append(harmonics(wf.tunnel(ROTOR, inflow=wake(wf.RelaxationWake, name), **stand).data))
+            except wf.WakeflightError as reason:
+                return str(reason)
         found[axis] = float((ends[1] - ends[0])[i] * scale / (2.0 * MOMENT))
     return found
 
@@ -96,11 +101,18 @@ def in_level_flight(name, aircraft):
     for speed in LEVEL:
         condition = wf.FlightCondition(speed=f"{speed} kt", flight_path="0 deg")
         try:
-            trimmed = wf.trim(aircraft, condition, inflow=wake(wf.RelaxationWake, name)).to_dataset()
+            start = wf.trim(aircraft, condition, inflow=wake(wf.RelaxationWake, name))
+            held = wf.fly(start, HELD, inflow=wake(wf.TimeMarchingWake, name), integrator="fixed").data
         except wf.WakeflightError as reason:
             found[speed] = str(reason)
             continue
+        trimmed, thrust = start.to_dataset(), -held["force_z"] / start.condition.weight
+        steps = round(2.0 * np.pi / (aircraft.rotor.omega * float(held["time"][1] - held["time"][0])))
+        turns = len(held["time"]) // steps
+        means = np.asarray(held["inflow_mean"])[: turns * steps].reshape(turns, steps).mean(1)
         found[speed] = {
+            "held_thrust_over_weight": [float(thrust.min()), float(thrust.max())],
+            "held_lambda_0": [float(means.min()), float(means.max())],
             "power": float(trimmed["power_main"]) / 745.7,
             "lambda_0": float(trimmed["inflow_mean"]),
             "left": float(trimmed["residual_inflow"]),
@@ -114,7 +126,7 @@ def main(out, *names):
     kept = json.loads(path.read_text()) if path.exists() else {}
     for name in names or WAKES:
         kept[name] = {
-            "stand": by_moments(name),
+            "stand": {speed: by_moments(name, speed) for speed in STAND},
             "roll": in_roll(name, aircraft),
             "level": in_level_flight(name, aircraft),
         }

@@ -8,10 +8,12 @@ from functools import cache
 
 import wakeflight as wf
 
-DEFAULT = "default: one tip vortex of the equivalent strength"
+DEFAULT = "default: three trailers and shed vorticity, two turns free and six carried"
 
 HOVER_WAKES = {
     DEFAULT: {},
+    "default, second-order lifting line": {"blade_model": "second-order"},
+    "tip vortex of the equivalent strength": {"trailers": "tip"},
     "tip vortex of the largest circulation, inboard sheet": {"tip_strength": "max", "inboard_wake": "sheet"},
     "tip vortex of the mean outboard circulation": {"tip_strength": "mean"},
     "largest circulation, sheet, Weissinger-L blade": {

@@ -51,7 +51,7 @@ class Option:
 
     kind: number, whole, switch, word. unit: rad, R (rotor radius), c (chord) ...; range: least, largest value, whether the
     least is itself refused. default: None where it is left open (`left_open` says what holds then) or depends on the regime;
-    lattice: what replaces that of the regime where trailers leave all over the span. tip_alone: whether it acts on a lone tip
+    lattice: what replaces it in each regime where trailers leave all over the span. tip_alone: whether it acts on a lone tip
     vortex only.
     """
 
@@ -64,7 +64,7 @@ class Option:
     words: dict[str, str]
     default: Any
     by_regime: dict[str, Any]
-    lattice: Any
+    lattice: dict[str, Any]
     tip_alone: bool
     left_open: str
     meaning: str
@@ -130,9 +130,8 @@ class Option:
             values = self.by_regime.values()
             if len(set(values)) == 1:
                 return f"{next(iter(values))}"
-            shown = (f"{self.by_regime[regime]} {words}" for regime, words in REGIMES.items())
-            lattice = "" if self.lattice is None else f"; {self.lattice} with full-span trailers"
-            return f"by regime: {', '.join(shown)}{lattice}"
+            lattice = f"; with full-span trailers {_by_regime(self.lattice)}" if self.lattice else ""
+            return f"by regime: {_by_regime(self.by_regime)}{lattice}"
         if self.left_open:
             return f"None, {self.left_open}"
         return f"{self.shown(self.default)}"
@@ -152,9 +151,24 @@ class Option:
         return f"be {'a whole number' if self.kind == 'whole' else 'a number'} between {low:g} and {high:g}"
 
 
+def _by_regime(values: dict[str, Any]) -> str:
+    """One value, or that of every regime in words."""
+    if len(set(values.values())) == 1:
+        return f"{next(iter(values.values()))}"
+    return ", ".join(f"{values[regime]} {words}" for regime, words in REGIMES.items())
+
+
 def _number(value: Any) -> Any:
     """A number as it is typed: 4 for 4.0 of the core; words and None as they are."""
     return int(value) if isinstance(value, float) and value.is_integer() else value
+
+
+def _each_regime(default: dict[str, Any] | None) -> dict[str, Any]:
+    """A default of the core by regime, empty where there is none."""
+    if default is None:
+        return {}
+    values = default["by_regime"] if "by_regime" in default else dict.fromkeys(REGIMES, default["always"])
+    return {name: _number(value) for name, value in values.items()}
 
 
 def _told(raw: dict[str, Any]) -> Option:
@@ -171,8 +185,8 @@ def _told(raw: dict[str, Any]) -> Option:
         range=None if bounds is None else (bounds["low"], bounds["high"], bounds["above"]),
         words={each["word"]: each["meaning"] for each in raw["words"]},
         default=Radians(always) if angle and always is not None else always,
-        by_regime={name: _number(value) for name, value in default.get("by_regime", {}).items()},
-        lattice=_number(raw["lattice"]),
+        by_regime=_each_regime(default) if "by_regime" in default else {},
+        lattice=_each_regime(raw["lattice"]),
         tip_alone=raw["tip_alone"],
         left_open=default.get("left_open", ""),
         meaning=raw["meaning"],
@@ -217,7 +231,7 @@ def resolved(values: dict[str, Any], regime: str) -> dict[str, Any]:
     if "trailers" in found and any(told[name].tip_alone and v != told[name].default for name, v in values.items()):
         found["trailers"] = "tip"
     if (values["trailers"] or found["trailers"]) == "full-span":
-        found.update({name: told[name].lattice for name in found if told[name].lattice is not None})
+        found.update({name: told[name].lattice[regime] for name in found if told[name].lattice})
     if "far_wake_turns" in found and (values["far_wake"] == "cylinder" or (values["turns"] or found["turns"]) < 2):
         found["far_wake_turns"] = 0
     return found

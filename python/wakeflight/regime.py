@@ -13,7 +13,8 @@ AXIAL_ADVANCE_RATIO = 0.03
 """Advance ratio below which a condition counts as axial: hover, climb or descent."""
 
 LOW_ADVANCE_RATIO = 0.085
-"""Advance ratio from which free trailers all over the span settle: at 0.047 and 0.093 they do, at 0.07 they circle."""
+"""Advance ratio from which the wake is blown clear of the disk: two turns of far wake are enough. Below it a relaxation wake
+circles about its answer at 25 to 35 kt of the UH-60A (0.06 to 0.08), a marching one becomes periodic."""
 
 REGIMES = {"forward": "forward", "slow": "low speed", "hover": "hover and climb", "descent": "axial descent"}
 """Regimes by name, each in words."""

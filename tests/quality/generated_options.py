@@ -55,7 +55,8 @@ def page():
             unit = {"rad": "angle", "": "–"}.get(option.unit, option.unit)
             if option.by_regime:
                 default = ", ".join(f"{value}" for value in option.by_regime.values())
-                default += "" if option.lattice is None else f"; {option.lattice} with full-span trailers"
+                lattice = ", ".join(dict.fromkeys(f"{value}" for value in option.lattice.values()))
+                default += f"; with full-span trailers {lattice}" if lattice else ""
             else:
                 default = option.default_in_words
             allowed = "<br>".join(f"`{word}`: {meaning}" for word, meaning in option.words.items()) or option.allowed

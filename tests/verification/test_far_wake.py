@@ -7,7 +7,7 @@ import wakeflight as wf
 
 
 def hover(rotor, blade_model="lifting-line", **options):
-    wake = wf.RelaxationWake(azimuth_step="15 deg", n_stations=12, **options)
+    wake = wf.RelaxationWake(trailers="tip", azimuth_step="15 deg", n_stations=12, **options)
     return wf.tunnel(rotor, collective="8 deg", inflow=wake, blade_model=blade_model)
 
 
@@ -20,6 +20,15 @@ def test_closed_end_makes_a_hovering_wake_independent_of_its_turns(two_blades):
     # what the repeats of the last turn approach
     repeats = hover(two_blades, turns=4, far_wake_turns=20).ct
     assert closed[0] == pytest.approx(repeats, rel=5e-3)
+
+
+def test_the_lattice_of_a_hovering_wake_depends_little_on_the_turns_of_its_far_wake(two_blades):
+    # each pair of turns brings less: 4, 8, 16 turns behind two free ones
+    wakes = [wf.RelaxationWake(azimuth_step="15 deg", n_stations=12, far_wake_turns=n) for n in (4, 8, 16)]
+    ct = [wf.tunnel(two_blades, collective="8 deg", inflow=wake).ct for wake in wakes]
+    first, second = abs(ct[1] / ct[0] - 1), abs(ct[2] / ct[1] - 1)
+    assert second < 0.5 * first
+    assert second < 1e-2
 
 
 def test_the_closed_end_is_for_tip_vortices_in_axial_flow():
@@ -36,7 +45,7 @@ def test_second_order_lifting_line_is_weissinger_where_tables_are_thin(two_blade
     tangency = wf.tunnel(
         two_blades,
         collective="8 deg",
-        inflow=wf.RelaxationWake(azimuth_step="15 deg", n_stations=12, turns=3),
+        inflow=wf.RelaxationWake(trailers="tip", azimuth_step="15 deg", n_stations=12, turns=3),
         blade_model="weissinger",
         prandtl_glauert=False,
     ).data

@@ -88,10 +88,10 @@ impl PySteadyWake {
         self.0.allowed().named().into_iter().collect()
     }
 
-    /// Of a wake that circles: change of the mean of its passes by the last one, and largest distance from the mean in it (rms).
+    /// Of a wake that circles: standard error of the mean of its passes, and largest distance from it in the last one (rms).
     #[getter]
     fn circling(&self) -> (f64, f64) {
-        (self.0.mean_change, self.0.wander)
+        (self.0.mean_error, self.0.wander)
     }
 
     /// Sweeps, circulations that Newton did not find from the ones before, evaluations of the segment law so far.

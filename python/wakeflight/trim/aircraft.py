@@ -2,7 +2,7 @@
 """An aircraft trimmed on a free wake: when its pitch controls and the wake rest, and what is said where they do not.
 
 A wake that rolls up may have no rest of its own: it circles, or varies from turn to turn. Where it does so closely about an
-inflow that no longer moves, that mean is what the aircraft is trimmed on, and a note says so. What does not rest is named.
+inflow that is known, that mean is what the aircraft is trimmed on, and a note says so. What does not rest is named.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ HOPELESS = 8
 DIRECT_REVOLUTIONS = 10
 """Revolutions of a marching wake that are each trimmed on; after them means are."""
 MEANS_END = (16, 22, 28, 34, 49, 64)
-"""Revolutions after which the mean since the last of them is trimmed on."""
+"""Revolutions after which the mean of those since the controls last moved is trimmed on."""
 PERIODIC = 3e-4
 """Change of the inflow of a marching wake from turn to turn, over the tip speed, at which it is periodic."""
 
@@ -145,6 +145,7 @@ class Means:
         self.recent: list[tuple[np.ndarray, np.ndarray]] = []
         self.inflow_map: np.ndarray | None = None
         self.mean: np.ndarray | None = None
+        self.since, self.change = DIRECT_REVOLUTIONS, np.inf
         self.varied = self.moved = self.chance = self.wander = self.uncertainty = np.inf
 
     @property
@@ -160,7 +161,10 @@ class Means:
             self.inflow_map, self.circulation = turns[-1]
             self.varied = self.rms(turns[-1][0] - turns[-2][0]) if revolution > 1 else np.inf
         elif revolution in MEANS_END:
-            recent = turns[max(end for end in (DIRECT_REVOLUTIONS, *MEANS_END) if end < revolution) :]
+            # turns at controls that have moved since tell of another motion
+            if self.change >= self.tolerance:
+                self.since = max(end for end in (DIRECT_REVOLUTIONS, *MEANS_END) if end < revolution)
+            recent = turns[self.since :]
             self.inflow_map, self.circulation = (np.mean([each[k] for each in recent], axis=0) for k in (0, 1))
             # a mean of n turns that vary independently is known to their scatter over the root of n
             self.wander = float(np.sqrt(np.mean([self.rms(each[0] - self.inflow_map) ** 2 for each in recent])))

@@ -7,6 +7,7 @@ counts as rest of a trim, and what is said where there is none [ribera2004].
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -103,7 +104,7 @@ class WakeInTrim:
 
     @property
     def rests_in_the_mean(self) -> bool:
-        """Whether the wake circles closely about an inflow that no longer moves."""
+        """Whether the wake circles closely about an inflow that is known."""
         return self.mean_unrest() < 1.0
 
     def forget_means(self) -> None:
@@ -119,10 +120,20 @@ class WakeInTrim:
         """How far the wake is from rest, in multiples of what is allowed: by itself, or in the mean where it circles."""
         return min(max(self.excess().values()), self.mean_unrest())
 
+    @property
+    def widest(self) -> float:
+        """Widest circle whose mean can be trimmed on, over the tip speed.
+
+        Circulation follows the inflow in proportion, so that the mean of a circle of radius w is off its centre by the next
+        order, w^2/lambda_0: no more than the inflow has to be known to.
+        """
+        mean = abs(float(np.mean(self.inflow_map @ self.model.area_weights)))
+        return max(INFLOW_KNOWN, math.sqrt(INFLOW_KNOWN * mean))
+
     def mean_unrest(self) -> float:
         """How far the mean of a wake that circles is from being one to trim on, below one where it is."""
-        moved, wander = self.core.circling
-        return max(moved / self.model.inflow.relaxed.inflow_tolerance, wander / INFLOW_KNOWN)
+        error, wander = self.core.circling
+        return max(error / INFLOW_KNOWN, wander / self.widest)
 
     def unrest(self) -> list[str]:
         """What has not settled, with figures."""
@@ -133,11 +144,10 @@ class WakeInTrim:
             "first_turn_change": "wake geometry: the first turn moves by {:.1e} R a sweep (allowed {:.1e})",
         }
         texts = [text.format(last[name], allowed[name]) for name, text in said.items() if excess[name] >= 1.0]
-        moved, wander = self.core.circling
+        error, wander = self.core.circling
         if np.isfinite(wander):
-            tolerance = self.model.inflow.relaxed.inflow_tolerance
             texts.append(
-                f"the wake circles: inflow within {wander:.1e} of its mean (allowed {INFLOW_KNOWN:.1e}), which "
-                f"moves by {moved:.1e} between passes (allowed {tolerance:.1e})"
+                f"the wake circles: inflow within {wander:.1e} of its mean (allowed {self.widest:.1e}), which is known to "
+                f"{error:.1e} (allowed {INFLOW_KNOWN:.1e})"
             )
         return texts

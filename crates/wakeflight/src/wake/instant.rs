@@ -14,6 +14,9 @@ use serde::{Deserialize, Serialize};
 pub struct RotorInstant {
     /// Free filaments, blade after blade, each from root to tip: the tip vortices, or all trailers.
     pub free: Filaments,
+    /// What is carried on behind the free filaments of a wake that marches; none of a periodic wake, whose last turn is repeated.
+    #[serde(default)]
+    pub far: Filaments,
     /// Filaments of the inboard sheet, blade after blade; none without a sheet.
     pub sheet: Filaments,
     /// Edges of the bound elements (n_blades, n_stations + 1) [m, `_h`].
@@ -33,6 +36,7 @@ impl RotorInstant {
     pub fn new(options: &WakeOptions, grid: &BladeGrid) -> Self {
         RotorInstant {
             free: Filaments::free(options),
+            far: Filaments::default(),
             sheet: Filaments::new(options, options.rotor.n_blades * options.sheet_filaments()),
             edge: vec![[0.0; 3]; options.rotor.n_blades * (options.n_stations + 1)],
             station: vec![[0.0; 3]; options.rotor.n_blades * options.n_stations],
@@ -83,6 +87,7 @@ impl RotorInstant {
     /// Becomes a copy of `other`; room is kept.
     pub fn copy(&mut self, other: &Self) {
         self.free.copy(&other.free);
+        self.far.copy(&other.far);
         self.sheet.copy(&other.sheet);
         self.edge.clone_from(&other.edge);
         self.station.clone_from(&other.station);

@@ -8,94 +8,27 @@
 //! a far wake behind it has the mean circulation of the last turn and is closed in itself.
 
 use super::choices::{ShedWake, Trailers};
+use super::far_wake;
 use super::filament::Filaments;
 use super::options::WakeOptions;
-use super::sink::Sink;
-use super::vectors::sum;
-use std::f64::consts::TAU;
+use super::sink::{Sink, Viewer};
 
-/// Who looks at the free vortices of one blade.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Viewer {
-    /// First marker whose trailing vortices are seen: the last of the near wake for the blade itself, else 0.
-    pub first: usize,
-    /// Least core radius [m].
-    pub floor: f64,
-}
-
-/// Appends filament `i` from the viewer's first marker on, and the displaced repeats of its last turn (the far wake).
+/// Appends filament `i` from the viewer's first marker on, and its far wake; `far`: that which is carried, or none.
 pub(crate) fn push_filament(
     segments: &mut impl Sink,
     options: &WakeOptions,
-    filaments: &Filaments,
+    (free, far): (&Filaments, &Filaments),
     i: usize,
     viewer: Viewer,
 ) {
-    let n = filaments.n_segments;
-    let m = filaments.marker(i, 0);
-    let mut segment = |k: usize, shift: [f64; 3]| {
-        let (a, b) = (filaments.position[m + k], filaments.position[m + k + 1]);
-        let strength = 0.5 * (filaments.circulation[m + k] + filaments.circulation[m + k + 1]);
-        let core = filaments.core_squared[i * n + k].sqrt().max(viewer.floor);
-        segments.push(sum(a, shift), sum(b, shift), strength, core);
-    };
+    let n = free.n_segments;
+    let m = free.marker(i, 0);
     for k in viewer.first..n {
-        segment(k, [0.0; 3]);
+        let strength = 0.5 * (free.circulation[m + k] + free.circulation[m + k + 1]);
+        let core = free.core_squared[i * n + k].sqrt().max(viewer.floor);
+        segments.push(free.position[m + k], free.position[m + k + 1], strength, core);
     }
-    if options.trailers == Trailers::FullSpan {
-        return push_far_trailer(segments, options, filaments, i, viewer);
-    }
-    for shift in far_wake(options, filaments, i) {
-        for k in n - options.steps_per_revolution()..n {
-            segment(k, shift);
-        }
-    }
-}
-
-/// Angle [rad] of the segments that the far wake of a lattice is made of.
-const FAR_STEP: f64 = 30.0 * TAU / 360.0;
-
-/// Appends the displaced repeats of the last turn of trailer `i` of a lattice, in long segments of the turn's mean
-/// circulation: what lies there is felt as a whole, and of constant strength it needs no shed vortices to be closed.
-fn push_far_trailer(
-    segments: &mut impl Sink,
-    options: &WakeOptions,
-    free: &Filaments,
-    i: usize,
-    viewer: Viewer,
-) {
-    let shifts = far_wake(options, free, i);
-    if shifts.is_empty() {
-        return;
-    }
-    let (n, turn, m) = (free.n_segments, options.steps_per_revolution(), free.marker(i, 0));
-    let strength = free.circulation[m + n - turn..m + n].iter().sum::<f64>() / turn as f64;
-    let core = free.core_squared[(i + 1) * n - 1].sqrt().max(viewer.floor);
-    // the longest whole number of steps up to FAR_STEP that divides the turn
-    let most = ((FAR_STEP / options.delta_psi() + 1e-9) as usize).max(1);
-    let stride = (1..=most).rev().find(|s| turn.is_multiple_of(*s)).unwrap_or(1);
-    for shift in shifts {
-        for k in (n - turn..n).step_by(stride) {
-            let (a, b) = (free.position[m + k], free.position[m + k + stride]);
-            segments.push(sum(a, shift), sum(b, shift), strength, core);
-        }
-    }
-}
-
-/// Displacements of the repeats of the last turn: multiples of the mean displacement of the markers over that turn.
-fn far_wake(options: &WakeOptions, filaments: &Filaments, i: usize) -> Vec<[f64; 3]> {
-    if options.far_wake_turns == 0 {
-        return Vec::new();
-    }
-    let (n, turn, m) = (filaments.n_segments, options.steps_per_revolution(), filaments.marker(i, 0));
-    let mut pitch = [0.0; 3];
-    for k in n + 1 - turn..=n {
-        let (a, b) = (filaments.position[m + k - turn], filaments.position[m + k]);
-        for c in 0..3 {
-            pitch[c] += (b[c] - a[c]) / turn as f64;
-        }
-    }
-    (1..=options.far_wake_turns).map(|repeat| pitch.map(|s| s * repeat as f64)).collect()
+    far_wake::push(segments, options, (free, far), i, viewer);
 }
 
 /// Circulation of the panels of a blade at marker `k` (trailers_per_blade - 1) [m2/s], root to tip.

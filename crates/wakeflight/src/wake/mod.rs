@@ -7,6 +7,7 @@ pub mod circulation;
 mod continuation;
 pub mod error;
 mod far_cylinder;
+mod far_wake;
 pub mod filament;
 pub mod geometry;
 pub mod ground;

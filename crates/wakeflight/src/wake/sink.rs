@@ -1,8 +1,17 @@
-//! Where segments of a wake go: a list of segments, or sources packed for the sum.
+//! Who looks at segments of a wake, and where they go: a list of segments, or sources packed for the sum.
 
 use super::ground::Plane;
 use crate::vortex::induced_velocity::Segments;
 use crate::vortex::sources::Sources;
+
+/// Who looks at the free vortices of one blade.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Viewer {
+    /// First marker whose trailing vortices are seen: the last of the near wake for the blade itself, else 0.
+    pub first: usize,
+    /// Least core radius [m].
+    pub floor: f64,
+}
 
 /// Where segments go.
 pub(crate) trait Sink {

@@ -1,10 +1,11 @@
 //! The vortices of a rotor and its wake packed for the sum, and what each blade sees of them.
 
 use super::choices::{Precision, Trailers};
+use super::filament::Filaments;
 use super::instant::RotorInstant;
-use super::lattice::{Viewer, bound, push_filament, push_shed};
+use super::lattice::{bound, push_filament, push_shed};
 use super::options::WakeOptions;
-use super::sink::{Above, Sink};
+use super::sink::{Above, Sink, Viewer};
 use crate::vortex::induced_velocity::Segments;
 use crate::vortex::sources::{Mark, Packing, Part, Sources};
 
@@ -55,14 +56,14 @@ fn push_to(
         Kind::Free => {
             let n = options.trailers_per_blade();
             for i in blade * n..(blade + 1) * n {
-                push_filament(segments, options, &instant.free, i, viewer);
+                push_filament(segments, options, (&instant.free, &instant.far), i, viewer);
             }
         }
         Kind::Shed => push_shed(segments, options, &instant.free, blade, own, viewer),
         Kind::Sheet => {
             let n = options.sheet_filaments();
             for i in blade * n..(blade + 1) * n {
-                push_filament(segments, options, &instant.sheet, i, viewer);
+                push_filament(segments, options, (&instant.sheet, &Filaments::default()), i, viewer);
             }
         }
         // a straight bound line induces nothing at its own stations

@@ -2,6 +2,7 @@
 
 use super::choices::{Evaluation, Form, Predictor, Scheme};
 use super::error::{WakeError, checked_pace, finite, length};
+use super::far_wake;
 use super::geometry::BladeGrid;
 use super::ground::Plane;
 use super::instant::RotorInstant;
@@ -95,7 +96,8 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
             });
         }
         let (n_k, n_t) = (options.n_segments(), options.trailers_per_blade());
-        let instant = relaxation.instant(azimuth_index);
+        let mut instant = relaxation.instant(azimuth_index);
+        instant.far = far_wake::repeated(&options, &instant.free);
         let mut carrier = Vec::with_capacity(instant.free.position.len());
         let mut levels: [Vec<[f64; 3]>; 3] = Default::default();
         for i in 0..options.rotor.n_blades * n_t {
@@ -178,6 +180,7 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
         let (options, own, velocity) = (&self.options, self.own, &self.velocity);
 
         let step = options.delta_psi() / options.rotor.omega * self.pace;
+        far_wake::carry(options, &mut next.far, &self.instant.free, velocity, &self.hub, step);
         let old = |i: usize| [velocity[i], velocity[i + 1]];
 
         // predictor: both ends of the segment at the old level

@@ -27,6 +27,8 @@ const LEAST_RELAXATION: f64 = 0.25;
 const SETTLING: usize = 5;
 /// Passes whose means are averaged at most: they scatter by several tolerances, the mean of eight moves by an eighth of that.
 const PASSES_OF_MEAN: usize = 8;
+/// Passes from which their scatter tells the error of their mean.
+const LEAST_PASSES_OF_MEAN: usize = 4;
 
 /// Changes of an iteration, or the largest of them that count as rest.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -78,8 +80,8 @@ pub struct SteadyWake {
     step_share: f64,
     /// Of a wake that circles: mean far inflow of each of the last passes,
     pass_means: Vec<Vec<f64>>,
-    /// the change of their mean by the last pass (rms), infinite where the wake does not circle,
-    pub mean_change: f64,
+    /// the standard error of their mean (rms), infinite where the wake does not circle or passes are few,
+    pub mean_error: f64,
     /// and the largest distance from the mean in it (rms).
     pub wander: f64,
     /// Sweeps so far.
@@ -112,7 +114,7 @@ impl SteadyWake {
             last: None,
             step_share: 1.0,
             pass_means: Vec::new(),
-            mean_change: f64::INFINITY,
+            mean_error: f64::INFINITY,
             wander: f64::INFINITY,
             sweeps: 0,
             followed: 0,
@@ -210,7 +212,7 @@ impl SteadyWake {
                 passed.push(self.lambda_far.clone());
             }
         }
-        (self.mean_change, self.wander) = (f64::INFINITY, f64::INFINITY);
+        (self.mean_error, self.wander) = (f64::INFINITY, f64::INFINITY);
         if passed.len() >= PATIENCE && !self.converged {
             self.take_mean(&passed);
             self.solve(place, blades)?;
@@ -247,7 +249,6 @@ impl SteadyWake {
     /// Holds the mean of the far inflows that a pass went through.
     fn take_mean(&mut self, passed: &[Vec<f64>]) {
         let mean = mean_of(passed);
-        let before = (!self.pass_means.is_empty()).then(|| mean_of(&self.pass_means));
         let apart =
             |a: &[f64], b: &[f64]| self.area.rms(&a.iter().zip(b).map(|(a, b)| a - b).collect::<Vec<_>>());
         self.wander = passed.iter().map(|each| apart(each, &mean)).fold(0.0, f64::max);
@@ -256,8 +257,10 @@ impl SteadyWake {
             self.pass_means.remove(0);
         }
         self.lambda_far = mean_of(&self.pass_means);
-        if let Some(before) = before {
-            self.mean_change = apart(&self.lambda_far, &before);
+        let passes = self.pass_means.len();
+        if passes >= LEAST_PASSES_OF_MEAN {
+            let squares: f64 = self.pass_means.iter().map(|each| apart(each, &self.lambda_far).powi(2)).sum();
+            self.mean_error = (squares / (passes * (passes - 1)) as f64).sqrt();
         }
     }
 

@@ -27,7 +27,7 @@ declare! {
         rotor: WakeRotor
     {
         /// Length of the free filaments in turns; a whole number of azimuth steps.
-        turns: f64 = by_regime(4.0, 5.0, 8.0), lattice(2.0), unit("turns"), between(1.0, 20.0), source(&["leishman2002"]),
+        turns: f64 = by_regime(4.0, 5.0, 4.0), lattice(always(2.0)), unit("turns"), between(1.0, 20.0), source(&["leishman2002"]),
             finer_larger("wake-turns", None);
 
         /// Step of azimuth, of wake age and of the coupling; divides the angle between blades.
@@ -51,7 +51,7 @@ declare! {
         form: Form = always(Form::Displacement);
 
         /// What leaves a blade freely: its tip vortex alone, or trailers all over the span joined by shed vortices.
-        trailers: Trailers = by_regime(Trailers::FullSpan, Trailers::Tip, Trailers::Tip).at_low_speed(Trailers::Tip), source(&["ribera2004"]);
+        trailers: Trailers = by_regime(Trailers::FullSpan, Trailers::FullSpan, Trailers::Tip), source(&["ribera2004"]);
 
         /// Trailers per blade of a full-span wake; 0 is one at every edge of the bound elements (n_stations + 1).
         n_trailers: usize = always(3), between(0.0, 201.0);
@@ -112,9 +112,9 @@ declare! {
         /// semi-infinite vortex cylinder (`cylinder`).
         far_wake: FarWake = always(FarWake::Repeat), tip_alone(), source(&["branlard2014"]);
 
-        /// Repeats of the last turn behind the free filaments; of a full-span wake in its mean circulation and in steps of
-        /// 30 deg. None with a `cylinder`.
-        far_wake_turns: usize = by_regime(0, 2, 0), lattice(2), unit("turns"), between(0.0, 50.0),
+        /// Turns of far wake behind the free filaments: repeats of the last turn, carried on by a wake that marches; of a full-span
+        /// wake in its mean circulation and in steps of 30 deg. None with a `cylinder`.
+        far_wake_turns: usize = by_regime(0, 2, 12), lattice(by_regime(2, 6, 2).at_low_speed(4)), unit("turns"), between(0.0, 50.0),
             finer_larger("far-wake-turns", None);
 
         /// Where the tip vortex leaves the blade, over the radius.

@@ -219,8 +219,8 @@ pub struct Descriptor {
     pub words: &'static [Word],
     /// Default.
     pub default: Told,
-    /// Default in every regime where trailers leave all over the span; none where it is the same.
-    pub lattice: Option<Plain>,
+    /// Default where trailers leave all over the span; none where it is the same.
+    pub lattice: Option<Told>,
     /// Whether it acts on a lone tip vortex only: where it is set, trailers that are left open are that.
     pub tip_alone: bool,
     /// Meaning, in a sentence.
@@ -263,9 +263,9 @@ impl Descriptor {
         Self { unit, ..self }
     }
 
-    /// Another default where trailers leave all over the span, whatever the regime.
-    pub(crate) fn lattice(self, value: impl Value) -> Self {
-        Self { lattice: Some(value.plain()), ..self }
+    /// Another default where trailers leave all over the span.
+    pub(crate) fn lattice<T: Value>(self, default: Start<T>) -> Self {
+        Self { lattice: Some(default.told), ..self }
     }
 
     /// Acts where a lone tip vortex leaves the blade.

@@ -3,6 +3,7 @@
 use super::{TimeMarchingWake, Work};
 use crate::wake::choices::Form;
 use crate::wake::error::WakeError;
+use crate::wake::far_wake;
 use crate::wake::filament::{aged_core_squared, distance, stretched_core_squared};
 use crate::wake::geometry::release_points;
 use crate::wake::inboard_sheet;
@@ -94,6 +95,7 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
                 *position = sum(carrier[i], unknown[i]);
             }
         }
+        far_wake::join(&self.options, &mut next.far, &next.free);
         let old = &self.instant.free;
         if !self.options.core_stretching {
             // at one pace the age tells the core, which then stays with its place on the filament
