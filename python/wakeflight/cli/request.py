@@ -80,7 +80,7 @@ def request(
     from ..aircraft import load_aircraft
     from ..condition import condition_for
     from ..control import Augmentation, load_control
-    from ..maneuvers import load_maneuver
+    from ..maneuver_files import load_maneuver
     from ..model import flight_regime
 
     drawing = check_drawing(drawing or Drawing())
@@ -169,8 +169,10 @@ def inflow_from(name: str, wake: Wake, on_stand: bool = False, lenient: bool = F
 
 def check_flight(revolutions: float | None, integrator: str, rotor_speed: str = "constant") -> None:
     """Refuse a length of flight, an integrator or a way to turn the rotor that there is not."""
-    if revolutions is not None and not 0.0 < revolutions <= 10000.0:
-        raise InputError.of("--revolutions", revolutions, "must lie above 0 and at most 10000")
+    from ..sticks import LONGEST_FLIGHT
+
+    if revolutions is not None and not 0.0 < revolutions <= LONGEST_FLIGHT:
+        raise InputError.of("--revolutions", revolutions, f"must lie above 0 and at most {LONGEST_FLIGHT}")
     if integrator not in ("ida", "fixed"):
         raise InputError.choice("--integrator", integrator, ("ida", "fixed"))
     if rotor_speed not in ("constant", "governed", "free"):
