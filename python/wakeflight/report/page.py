@@ -14,7 +14,7 @@ from ..atomic import write_text
 from ..errors import WakeflightError, one_line
 from ..plotting import COMPARISONS, FIGURES, Plot
 from ..plotting.shown import check_units
-from ..plotting.style import save
+from ..plotting.style import looks, save
 from ..progress import Progress, Reported, Silent, heard
 from ..results import by_name
 from ..results import drawn as drawn_there
@@ -23,6 +23,10 @@ from .summary import Row, configuration, counters, physics, summary, trim_table,
 
 if TYPE_CHECKING:
     import xarray as xr
+
+
+DASHES = {"-": "none", "--": "8 3", "-.": "8 3 2 3", ":": "2 3"}
+"""Lines of figures as a page draws them."""
 
 
 @dataclass(frozen=True)
@@ -70,6 +74,7 @@ def write(
         title=_title(first, several),
         names=list(named),
         several=several,
+        looks={name: (color, DASHES[line]) for name, (color, line) in looks(named).items()} if several else {},
         failures={name: run.attrs["failure"] for name, run in named.items() if not run.attrs.get("finished", 1)},
         warnings=[*_common(warnings, named), *missed],
         flown=_join(partial(physics, units=units), named),
