@@ -26,11 +26,12 @@ import numpy as np
 from . import atomic
 from .errors import InputError, StorageFailure, WakeflightError
 from .flight_input import FlightInput
+from .flight_start import ConvergencePhase
 from .folder_lock import FolderLock
 from .recorder import fields_of
 from .results import finished, forget_drawn, load, save
 from .runlog import FileRows, FileWakes, Log, LogWriter, layout, read
-from .simulation import ConvergencePhase, Simulation
+from .simulation import Simulation
 from .snapshot import Snapshot, packed, unpacked
 from .stick_samples import sampled
 from .trim import Trim

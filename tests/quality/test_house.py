@@ -46,6 +46,7 @@ PYTHON_ORDER = (
     {"wind"},
     {"integrators", "exchange"},
     {"trim", "stepping"},
+    {"flight_start"},
     {"simulation"},
     {"recorder", "transfer"},
     {"flight_monitors"},
