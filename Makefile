@@ -23,7 +23,7 @@ PYTHON ?= $(firstword $(foreach p,python3 python3.14 python3.13 python3.12 pytho
 	$(p) -c 'import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo $(p))))
 present = $(shell command -v $(1) 2>/dev/null)
 
-.PHONY: fly test validate bench fuzz docs wheel clean tools
+.PHONY: fly test validate bench fuzz miri docs wheel clean tools
 .NOTPARALLEL:
 
 fly: $(STAMPS)/package
@@ -62,6 +62,11 @@ docs: $(STAMPS)/docs $(STAMPS)/package
 # random inputs of every kind, a hundred thousand of them: CASES, SEED and WORKERS are yours to choose
 fuzz: $(STAMPS)/dev $(STAMPS)/package
 	$(BIN)/python tests/fuzz/fuzz.py --cases $(or $(CASES),100000) --seed $(or $(SEED),1) --workers $(or $(WORKERS),2)
+
+# the team of threads under Miri, in several orders of its threads: needs a nightly toolchain with the component miri
+miri:
+	MIRIFLAGS="-Zmiri-disable-isolation -Zmiri-ignore-leaks -Zmiri-many-seeds=0..$(or $(SEEDS),4)" \
+		cargo +nightly miri test --package wakeflight --lib -- vortex::team
 
 clean:
 	rm -rf $(VENV) target runs dist site .pytest_cache .ruff_cache .mypy_cache .hypothesis

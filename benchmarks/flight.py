@@ -4,8 +4,8 @@ import numpy as np
 from measure import seconds, table
 
 import wakeflight as wf
+from wakeflight.flight_start import flight_model
 from wakeflight.integrators import consistent_rate
-from wakeflight.simulation import flight_model
 
 PHASES = ("seconds_trim", "seconds_convergence", "seconds_wake", "seconds_dynamics")
 

@@ -47,7 +47,7 @@ ROOMS = {
     "inputs": (
         "condition",
         "inflow",
-        "maneuvers",
+        "maneuver*",
         "options",
         "presets",
         "regime",
@@ -58,7 +58,18 @@ ROOMS = {
         "perturbation",
     ),
     "results": ("results",),
-    "basics": ("errors", "attitude", "arguments", "atomic", "interruption", "text", "references", "progress", "views"),
+    "basics": (
+        "errors",
+        "attitude",
+        "arguments",
+        "atomic",
+        "folder_lock",
+        "interruption",
+        "text",
+        "references",
+        "progress",
+        "views",
+    ),
 }
 """Rooms of Python and the modules in them; a module that is in none is a room of its own."""
 

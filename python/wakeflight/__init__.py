@@ -45,7 +45,8 @@ if TYPE_CHECKING:
     from .handling import HandlingQualities, handling_qualities
     from .inflow import AnnularInflow, DynamicInflow, RelaxationWake, TimeMarchingWake, inflow_model
     from .linear import LinearModel, inflow_constants, linearize
-    from .maneuvers import Maneuver, arrested_descent, load_maneuver, roll_reversal
+    from .maneuver_files import arrested_descent, load_maneuver, roll_reversal
+    from .maneuvers import Maneuver
     from .modes import blade_modes
     from .references import bibtex
     from .report.load_factor import load_factor
@@ -117,9 +118,9 @@ _HOME = {
     "inflow_constants": "linear",
     "linearize": "linear",
     "Maneuver": "maneuvers",
-    "arrested_descent": "maneuvers",
-    "load_maneuver": "maneuvers",
-    "roll_reversal": "maneuvers",
+    "arrested_descent": "maneuver_files",
+    "load_maneuver": "maneuver_files",
+    "roll_reversal": "maneuver_files",
     "blade_modes": "modes",
     "bibtex": "references",
     "Engine": "engine",

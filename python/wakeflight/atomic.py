@@ -71,6 +71,14 @@ def synced(folder: Path) -> None:
             os.close(entry)
 
 
+def remove(path: Path) -> None:
+    """Remove a file that may be there; a StorageFailure where that is refused."""
+    try:
+        path.unlink(missing_ok=True)
+    except OSError as reason:
+        raise StorageFailure.of(path, reason) from reason
+
+
 def sweep(folder: Path) -> None:
     """Remove what writes that were killed have left in `folder`; nobody may be writing there."""
     for entry in folder.iterdir():

@@ -37,8 +37,15 @@ TURNS = {"right": 1.0, "left": -1.0}
 """Directions of a turn, each with the sign of its rate."""
 
 
-def described(values: dict[str, Any]) -> str:
-    """A condition as results keep it (SI, radians), with the units it is given in: `speed 80 kt, flight path -6 deg`."""
+_US = {"m": "ft"}
+
+
+def described(values: dict[str, Any], units: str = "si") -> str:
+    """A condition as results keep it (SI, radians), with the units it is given in: `speed 80 kt, flight path -6 deg`.
+
+    units: `us` for feet and pounds in place of metres and kilograms.
+    """
+    us = units == "us"
     parts = []
     for name, value in values.items():
         if name == "bank_share":
@@ -47,11 +54,12 @@ def described(values: dict[str, Any]) -> str:
                 continue
             value = f"{value:.2f}"
         elif name in _RANGES:
-            value = shown(value, _RANGES[name][3])
+            unit = _RANGES[name][3]
+            value = shown(value, _US.get(unit, unit) if us else unit)
         elif name == "load_factor":
             value = f"{value:g}"
         elif name == "gross_mass":
-            value = shown(value, "kg")
+            value = shown(value, "lb" if us else "kg")
         parts.append(f"{name.replace('_', ' ')} {value}")
     return ", ".join(parts)
 

@@ -26,9 +26,11 @@ def file_schema(kind: str) -> dict[str, Any]:
 
 
 def _maneuver() -> dict[str, Any]:
-    from .maneuvers import FILE_MODEL
+    from pydantic import TypeAdapter
 
-    return FILE_MODEL.model_json_schema()
+    from .maneuver_files import FILE_MODEL
+
+    return TypeAdapter(FILE_MODEL).json_schema()
 
 
 def _aircraft() -> dict[str, Any]:

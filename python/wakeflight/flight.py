@@ -30,6 +30,7 @@ from .progress import Progress, Reported, Silent, heard, reporting
 from .recorder import Recorder, keeps_sheets
 from .rotor_speed import CONSTANT, RotorSpeed, unflown
 from .simulation import Simulation
+from .sticks import LONGEST_FLIGHT
 from .thinning import thinned
 from .trim import INCH, Trim
 from .units import whole
@@ -333,6 +334,6 @@ def flown_steps(model: Model, maneuver: Maneuver, revolutions: float | None) -> 
         revolutions = maneuver.duration_revolutions(model.omega)
         if model.rotor_speed:
             revolutions = model.clock.steps(0, maneuver.duration(model.omega)) / model.steps_per_revolution
-    if not 0 < revolutions <= 10000:
-        raise InputError.of("revolutions", revolutions, "must lie above 0 and at most 10000")
+    if not 0 < revolutions <= LONGEST_FLIGHT:
+        raise InputError.of("revolutions", revolutions, f"must lie above 0 and at most {LONGEST_FLIGHT}")
     return max(1, round(revolutions * model.steps_per_revolution))

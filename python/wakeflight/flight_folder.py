@@ -10,7 +10,6 @@ moments go when the flight has ended and its result is on the disk.
 from __future__ import annotations
 
 import contextlib
-import fcntl
 import hashlib
 import os
 import shutil
@@ -27,10 +26,12 @@ import numpy as np
 from . import atomic
 from .errors import InputError, StorageFailure, WakeflightError
 from .flight_input import FlightInput
+from .flight_start import ConvergencePhase
+from .folder_lock import FolderLock
 from .recorder import fields_of
 from .results import finished, forget_drawn, load, save
 from .runlog import FileRows, FileWakes, Log, LogWriter, layout, read
-from .simulation import ConvergencePhase, Simulation
+from .simulation import Simulation
 from .snapshot import Snapshot, packed, unpacked
 from .stick_samples import sampled
 from .trim import Trim
@@ -99,33 +100,18 @@ class RunFolder:
         self._samples: LogWriter | None = None
         self._last_flush = self._last_kept = time.perf_counter()
         self._pause = self.every
-        self._lock = -1
         self.saved: Path | None = None
         """Where the result has been written."""
         self.had_ended = False
         """Whether there was nothing left to fly."""
-        if not read_only:
-            self._own()
+        self._lock = None if read_only else FolderLock(self.folder, self._taken)
 
-    def _own(self) -> None:
-        """Lock."""
-        try:
-            self.folder.mkdir(parents=True, exist_ok=True)
-            self._lock = os.open(self.folder, os.O_RDONLY)
-        except OSError as reason:
-            raise StorageFailure.of(self.folder, reason) from reason
-        try:
-            fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError as reason:
-            os.close(self._lock)
-            who = "another process"
-            with contextlib.suppress(OSError):
-                who = (self.restart / "owner").read_text(encoding="utf-8")
-            said = f"a flight is being written there ({who}); allowed: another folder, or wait until it has ended"
-            raise InputError.of("out", str(self.folder), said) from reason
-        except OSError:
-            # a file system without locks
-            pass
+    def _taken(self) -> str:
+        """Who writes here."""
+        who = "another process"
+        with contextlib.suppress(OSError, UnicodeDecodeError):
+            who = (self.restart / "owner").read_text(encoding="utf-8")
+        return f"a flight is being written there ({who})"
 
     def __enter__(self) -> RunFolder:
         """Locked already."""
@@ -140,8 +126,8 @@ class RunFolder:
         for log in (self._samples, self._rows, self._wakes):
             if log is not None:
                 log.close()
-        if self._lock >= 0:
-            os.close(self._lock)
+        if self._lock is not None:
+            self._lock.release()
 
     def begin(self, given: FlightInput) -> str:
         """A new flight; returns what is to be said of an unfinished one that was here, which is put aside."""
@@ -207,7 +193,7 @@ class RunFolder:
         if at_start is not None:
             self.keep_start(start, at_start)
         # they are in the input now
-        (self.restart / SAMPLES).unlink(missing_ok=True)
+        atomic.remove(self.restart / SAMPLES)
 
     def result(self) -> xr.Dataset | None:
         """The result of the flight that is here, None where it has not come to its end."""
@@ -275,8 +261,7 @@ class RunFolder:
     def wakes(self, kept: int) -> FileWakes:
         """Where wakes go."""
         if kept == 0:
-            with contextlib.suppress(FileNotFoundError):
-                (self.restart / "wakes.log").unlink()
+            atomic.remove(self.restart / "wakes.log")
         self._wakes = FileWakes(self.restart / "wakes.log", kept)
         return self._wakes
 
@@ -290,7 +275,7 @@ class RunFolder:
             self._flush(to_disk=True)
             self._write(f"at-{sim.steps:08d}.ckpt", *_of_moment(Kept(sim.snapshot(), None, sim.seconds)))
             for path in self._moments()[CHECKPOINTS:]:
-                path.unlink(missing_ok=True)
+                atomic.remove(path)
             self._last_kept = time.perf_counter()
             self._pause = max(self.every, (self._last_kept - now) / SHARE) if self.every else 0.0
 

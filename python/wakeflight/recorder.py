@@ -23,7 +23,8 @@ from .wind import passing
 if TYPE_CHECKING:
     import xarray as xr
 
-    from .simulation import ConvergencePhase, Simulation
+    from .flight_start import ConvergencePhase
+    from .simulation import Simulation
     from .stepping import Instant
 
 LARGEST_SHEET = 5_000_000  # numbers; larger lattices of full-span wakes are not kept

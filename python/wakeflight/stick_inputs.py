@@ -13,7 +13,8 @@ from typing import Any
 
 from .arguments import checked
 from .errors import InputError
-from .maneuvers import Maneuver, recorded
+from .maneuver_files import recorded
+from .maneuvers import Maneuver
 from .stick_histories import Corner
 from .sticks import STICKS
 from .units import quantity

@@ -11,6 +11,9 @@ import numpy as np
 STICKS = ("lateral", "longitudinal", "collective", "pedal")
 """Order of sticks everywhere: right +, aft +, up +, right +, inches from the stop."""
 
+LONGEST_FLIGHT = 100_000
+"""Most revolutions of a flight: hours."""
+
 INCH = 0.0254
 """An inch [m]."""
 

@@ -5,7 +5,8 @@ import numpy as np
 import pytest
 
 from wakeflight.errors import InputError
-from wakeflight.maneuvers import Maneuver, arrested_descent, load_maneuver, roll_reversal
+from wakeflight.maneuver_files import arrested_descent, load_maneuver, roll_reversal
+from wakeflight.maneuvers import Maneuver
 
 OMEGA = 27.0
 TRIM = (4.6, 5.0, 4.0, 2.7)

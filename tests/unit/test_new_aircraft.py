@@ -98,3 +98,25 @@ def test_the_template_is_written_once_and_flies(tmp_path, capsys):
 def test_kinds_are_named():
     with pytest.raises(wf.InputError, match="did you mean maneuver"):
         wf.file_schema("maneuvers")
+
+
+RECORDED = """
+name = "of the cockpit"
+recorded = { file = "sticks.csv", about = "trim", join = "0.4 s" }
+duration = { seconds = 3.0 }
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "named"),
+    [
+        ("", "", None),
+        ("about =", "around =", "around is not allowed"),
+        ("name =", "nam =", "name is missing"),
+        ('"0.4 s"', "0.4", "is no ['string']"),
+    ],
+)
+def test_the_schema_of_manoeuvres_knows_recorded_sticks(old, new, named):
+    schema = wf.file_schema("maneuver")
+    found = _faults(tomllib.loads(RECORDED.replace(old, new, 1)), schema, schema)
+    assert found == [] if named is None else any(named in each for each in found), found

@@ -7,9 +7,9 @@ from typer.testing import CliRunner
 import wakeflight as wf
 from wakeflight import cli, options, regime
 from wakeflight.condition import condition_for
+from wakeflight.flight_start import flight_model
 from wakeflight.inflow import trim_model
 from wakeflight.model import Model
-from wakeflight.simulation import flight_model
 from wakeflight.tunnel.condition import StandCondition, hub_velocity
 from wakeflight.tunnel.model import StandModel
 

@@ -71,6 +71,11 @@ def test_runs_are_compared_side_by_side(tmp_path):
     page = report.write(runs, tmp_path).read_text()
     assert "<th>time-marching</th><th>relaxation</th><th>dynamic</th>" in page
     assert (tmp_path / "cost.png").is_file()
+    # on a narrow page, where a figure is pushed sideways, the key of its lines stays in sight
+    key = page.split('<p class="key">')[1].split("</p>")[0]
+    assert all(f"</svg>{model}</span>" in key for model in runs) and 'stroke="#0072B2"' in key
+    alone = report.write(runs["dynamic"], tmp_path).read_text()
+    assert '<p class="key">' not in alone
 
 
 def test_wakes_are_exported_as_polylines(tmp_path):
@@ -100,3 +105,4 @@ def test_a_flight_condition_is_told_with_its_units():
     assert described(condition.as_attributes()) == (
         "speed 80 kt, flight path -6 deg, altitude 1600.2 m, gross mass 7257.48 kg, turn rate 0 deg/s"
     )
+    assert "altitude 5250 ft, gross mass 16000 lb," in described(condition.as_attributes(), "us")

@@ -7,7 +7,7 @@ import pytest
 
 import wakeflight as wf
 from wakeflight import _core
-from wakeflight.simulation import flight_model
+from wakeflight.flight_start import flight_model
 
 
 @pytest.fixture(scope="module")

@@ -6,7 +6,7 @@ import pytest
 
 import wakeflight as wf
 from wakeflight import flight
-from wakeflight.maneuvers import arrested_descent, roll_reversal
+from wakeflight.maneuver_files import arrested_descent, roll_reversal
 from wakeflight.rotor_speed import SteadyClock
 from wakeflight.thinning import PIECES, nearest, thinned
 

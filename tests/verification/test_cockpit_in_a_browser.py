@@ -22,6 +22,8 @@ import wakeflight as wf
 CHROMIUM = next(
     (found for name in ("chromium", "chromium-browser", "google-chrome") if (found := shutil.which(name))), None
 )
+ENOUGH, QUIET = 28.0, 0.15
+"""Pictures a second that are asked for; processors that others may take on a machine that is quiet."""
 pytestmark = [pytest.mark.slow, pytest.mark.skipif(CHROMIUM is None, reason="no Chromium to look with")]
 
 
@@ -83,6 +85,40 @@ def _waited(found, seconds=60.0):
         time.sleep(0.2)
 
 
+def spent(process):
+    """Processor time so far [s]: of the whole machine, and of this process, `process` and all their children."""
+    tick = os.sysconf("SC_CLK_TCK")
+    fields = [int(each) for each in Path("/proc/stat").read_text().split("\n")[0].split()[1:9]]
+    # but for idle and waiting for a disk; what the host takes from a guest counts
+    machine = (sum(fields) - fields[3] - fields[4]) / tick
+    parent, used = {}, {}
+    for path in Path("/proc").glob("[0-9]*/stat"):
+        try:
+            own = path.read_text().rsplit(")", 1)[1].split()
+        except OSError:
+            continue
+        parent[int(path.parent.name)], used[int(path.parent.name)] = int(own[1]), sum(map(int, own[11:15])) / tick
+    ours, more = {os.getpid(), process}, True
+    while more:
+        more = {child for child, of in parent.items() if of in ours} - ours
+        ours |= more
+    return machine, sum(used.get(each, 0.0) for each in ours)
+
+
+def pictures(page, flown, windows=6, seconds=5.0):
+    """Most pictures a second in a few spans, and what others took of the processors meanwhile, in whole processors."""
+    found = []
+    for _ in range(windows):
+        drawn, wall, (machine, own) = page.value("cockpit.drawn"), time.monotonic(), spent(flown.pid)
+        time.sleep(seconds)
+        rate, after = page.value("cockpit.drawn") - drawn, spent(flown.pid)
+        wall = time.monotonic() - wall
+        found.append((rate / wall, (after[0] - machine - after[1] + own) / wall))
+        if found[-1][0] > ENOUGH:
+            break
+    return max(found)
+
+
 def test_the_helicopter_is_flown_in_a_browser_with_the_wake_of_the_paper(tmp_path):
     command = [sys.executable, "-m", "wakeflight", "cockpit", "--no-browser", "--port", "0", "--flight-path", "0 deg"]
     flown = subprocess.Popen(
@@ -102,12 +138,11 @@ def test_the_helicopter_is_flown_in_a_browser_with_the_wake_of_the_paper(tmp_pat
         page.key("Space", False)
         _waited(lambda: page.value("cockpit.scalars.time > 0.5"), 120.0)
         assert page.picture() != first
-        drawn, wall = page.value("cockpit.drawn"), time.monotonic()
-        time.sleep(5.0)
-        rate = (page.value("cockpit.drawn") - drawn) / (time.monotonic() - wall)
+        rate, others = pictures(page, flown)
         pace = page.value("cockpit.scalars.pace")
-        # on a machine that is busy with something else time is slower, and pictures are fewer
-        assert rate > 28.0 or pace < 0.9, (rate, pace)
+        print(f"{rate:.1f} pictures a second at {pace:.2f} of real time, others took {others:.2f} processors")
+        # pictures are offered whatever the time does: only others who take the processors excuse fewer
+        assert rate > ENOUGH or others > QUIET, (rate, pace, others)
         roll = page.value("cockpit.scalars.roll")
         page.key("ArrowRight", True)
         _waited(lambda: page.value("cockpit.scalars.roll") > roll + 0.1, 120.0)
@@ -127,3 +162,7 @@ def test_the_helicopter_is_flown_in_a_browser_with_the_wake_of_the_paper(tmp_pat
     (run,) = (tmp_path / "runs").glob("*/run.nc")
     again = wf.rerun(run)
     assert again.same, again.differing
+    if rate <= ENOUGH:
+        pytest.skip(
+            f"all but the rate was shown: {rate:.1f} pictures a second while others took {others:.2f} processors"
+        )

@@ -5,7 +5,7 @@ import pytest
 
 import wakeflight as wf
 from wakeflight.exchange import Exchange
-from wakeflight.simulation import flight_model
+from wakeflight.flight_start import flight_model
 
 
 def loop(start, **options):

@@ -10,8 +10,8 @@ import wakeflight as wf
 from wakeflight import _core
 from wakeflight.exchange import Exchange
 from wakeflight.flight import Sticks
+from wakeflight.flight_start import flight_model
 from wakeflight.integrators import IdaIntegrator, absolute_tolerances, consistent_rate
-from wakeflight.simulation import flight_model
 
 
 @pytest.mark.parametrize("method", ["BDF", "Radau"])

@@ -7,8 +7,8 @@ import xarray as xr
 import wakeflight as wf
 from wakeflight import cli
 from wakeflight.condition import condition_for
+from wakeflight.flight_start import flight_model
 from wakeflight.model import Model
-from wakeflight.simulation import flight_model
 
 TYPED = {"tip_strength": "max", "inboard_wake": "sheet"}
 COARSE = {"azimuth_step": "30 deg", "n_stations": 10}

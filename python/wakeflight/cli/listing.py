@@ -53,7 +53,7 @@ def _aircraft() -> Iterator[tuple[str, str]]:
 
 
 def _maneuvers() -> Iterator[tuple[str, str]]:
-    from ..maneuvers import SHIPPED, load_maneuver
+    from ..maneuver_files import SHIPPED, load_maneuver
 
     for name in SHIPPED:
         loaded = load_maneuver(name)

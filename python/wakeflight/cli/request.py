@@ -5,8 +5,8 @@ from __future__ import annotations
 
 import os
 import tomllib
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -36,12 +36,12 @@ class Request:
     out: Path
     drawing: Drawing
     maneuver: Maneuver | None = None
-    typed: tuple[str, ...] = ()
+    typed: Mapping[str, Any] = field(default_factory=dict)
     control: Augmentation | None = None
     perturb: Perturbation = ()
 
     def told(self) -> str:
-        """The condition that is flown, what was given before what the aircraft's file gives, in the units of pilots."""
+        """The condition that is flown: what was given, as typed, then what the aircraft's file gives, in units of pilots."""
         from ..condition import described
 
         condition: dict[str, Any] = self.condition.as_attributes()
@@ -51,6 +51,7 @@ class Request:
             "altitude": shown(condition.pop("altitude"), "ft"),
             "weight": shown(condition.pop("gross_mass") * STANDARD_GRAVITY, "lbf"),
         }
+        values |= {name: " ".join(str(self.typed[name]).split()) for name in values if name in self.typed}
         parts = {
             source: ", ".join(
                 f"{name.replace('_', ' ')} {value}" for name, value in values.items() if (name in self.typed) == given
@@ -80,7 +81,7 @@ def request(
     from ..aircraft import load_aircraft
     from ..condition import condition_for
     from ..control import Augmentation, load_control
-    from ..maneuvers import load_maneuver
+    from ..maneuver_files import load_maneuver
     from ..model import flight_regime
 
     drawing = check_drawing(drawing or Drawing())
@@ -107,7 +108,7 @@ def request(
     folder = writable(
         run.out if run.out is not None else Path("runs") / slug(flown.name if flown is not None else "run")
     )
-    return Request(loaded, complete, model, folder, drawing, flown, tuple(given.given()), made)
+    return Request(loaded, complete, model, folder, drawing, flown, given.given(), made)
 
 
 def changed(aircraft: Aircraft, typed: Sequence[str] | None) -> Aircraft:
@@ -169,8 +170,10 @@ def inflow_from(name: str, wake: Wake, on_stand: bool = False, lenient: bool = F
 
 def check_flight(revolutions: float | None, integrator: str, rotor_speed: str = "constant") -> None:
     """Refuse a length of flight, an integrator or a way to turn the rotor that there is not."""
-    if revolutions is not None and not 0.0 < revolutions <= 10000.0:
-        raise InputError.of("--revolutions", revolutions, "must lie above 0 and at most 10000")
+    from ..sticks import LONGEST_FLIGHT
+
+    if revolutions is not None and not 0.0 < revolutions <= LONGEST_FLIGHT:
+        raise InputError.of("--revolutions", revolutions, f"must lie above 0 and at most {LONGEST_FLIGHT}")
     if integrator not in ("ida", "fixed"):
         raise InputError.choice("--integrator", integrator, ("ida", "fixed"))
     if rotor_speed not in ("constant", "governed", "free"):

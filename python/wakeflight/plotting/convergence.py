@@ -102,7 +102,7 @@ def _curves(axes: Axes, study: xr.Dataset, error: str, names: Sequence[str], sca
             place, offset, rotation = ("data", "data"), (5, 3), 0
         else:  # the finest, whose error is not known: a line where its cost lies
             axes.axvline(seconds, color=style.GREY, linewidth=0.5, linestyle=":")
-            place, offset, rotation, value = ("data", "axes fraction"), (1, -2), 90, np.float64(1.0)
+            place, offset, rotation, value = ("data", "axes fraction"), (1, 3), 90, np.float64(0.0)
         axes.annotate(
             str(setting),
             (seconds, value),
@@ -110,7 +110,7 @@ def _curves(axes: Axes, study: xr.Dataset, error: str, names: Sequence[str], sca
             xytext=offset,
             textcoords="offset points",
             rotation=rotation,
-            va="top" if rotation else "bottom",
+            va="bottom",
             fontsize=7,
             color=style.GREY,
         )
@@ -124,6 +124,10 @@ def _finish(panels: Sequence[Axes], bottom: Sequence[Axes], study: xr.Dataset, l
     for axes in panels:
         axes.set(xscale="log", yscale="log", xlim=(low, high))
         axes.margins(y=0.12)
+        least, most = axes.get_ylim()
+        if most < 10.0 * least:
+            # whole decades, or the axis has no round number to read it by
+            axes.set_ylim(10.0 ** np.floor(np.log10(least)), 10.0 ** np.ceil(np.log10(most)))
         axes.xaxis.set_major_locator(FixedLocator(_ticks(low, high)))
         axes.xaxis.set_minor_locator(NullLocator())
         axes.xaxis.set_major_formatter(ScalarFormatter())

@@ -45,12 +45,11 @@ def sections(data: xr.Dataset) -> Figure:
     """Lift coefficient and circulation along the blade (mean, range over the azimuth), lift over azimuth outboard."""
     figure = style.blank(2.9)
     left, middle, right = figure.subplots(1, 3)
+    own = _color(data)
     for axes, name, label in ((left, "cl", "C$_l$ [–]"), (middle, "circulation", "Γ [m²/s]")):
         field = data[name]
-        axes.fill_between(
-            data.station, field.min("azimuth"), field.max("azimuth"), color=style.COLORS[4], alpha=0.35, lw=0
-        )
-        axes.plot(data.station, field.mean("azimuth"), color=style.COLORS[0])
+        axes.fill_between(data.station, field.min("azimuth"), field.max("azimuth"), color=own, alpha=0.25, lw=0)
+        axes.plot(data.station, field.mean("azimuth"), color=own)
         axes.set(xlabel="r/R", ylabel=label, xlim=(0, 1))
         axes.set_title("mean, range over azimuth")
     for r, color in zip((0.5, 0.75, 0.9), style.COLORS, strict=False):
@@ -87,13 +86,18 @@ def wake(data: xr.Dataset) -> Figure:
     side.plot((-1, 1), (0, 0), color="black", lw=2)
     around = np.linspace(0, 2 * np.pi, 181)
     top.plot(np.cos(around), np.sin(around), color=style.GREY, lw=0.7)
-    side.set(xlabel="x/R, aft +", ylabel="z/R, up +", title="from the side", aspect="equal")
+    thin = ", thin: at the end" if data.attrs["averaged"] > 0 else ""
+    side.set(xlabel="x/R, aft +", ylabel="z/R, up +", title=f"from the side{thin}", aspect="equal")
     top.set(xlabel="x/R, aft +", ylabel="y/R, right +", title="from above", aspect="equal")
     figure.legend(*top.get_legend_handles_labels(), loc="outside lower center", ncols=n_blades)
     age = np.degrees(data.age)
-    far.plot(age, data.tip_vortex_radius, color=style.COLORS[0])
+    # whole turns, as many as have room
+    turns = np.arange(0.0, age[-1] + 1.0, 360.0 * (1 + age[-1].item() // 2520))
+    for axes in (far, height):
+        axes.set_xticks(turns)
+    far.plot(age, data.tip_vortex_radius, color=_color(data))
     far.set(xlabel="wake age [°]", ylabel="r/R", title="distance from the shaft, mean over azimuth")
-    height.plot(age, data.tip_vortex_height, color=style.COLORS[0])
+    height.plot(age, data.tip_vortex_height, color=_color(data))
     height.set(xlabel="wake age [°]", ylabel="Δz/R", title="height above the release, mean over azimuth")
     figure.suptitle(_title(data))
     return figure
@@ -120,7 +124,7 @@ def transient(data: xr.Dataset) -> Figure:
                 ncols=4, loc="lower center", bbox_to_anchor=(0.5, 1.0), handlelength=1.0, columnspacing=0.8, fontsize=7
             )
         else:
-            axes.plot(turns, values, color=style.COLORS[0])
+            axes.plot(turns, values, color=_color(data))
         axes.set_ylabel(label)
     at = data.station.values
     strength = data.circulation.mean("blade")
@@ -145,6 +149,12 @@ def write(data: xr.Dataset, folder: Path, figure_format: str = "png") -> list[Pa
     """Write the figures that the data allow beside the result."""
     figures = {"maps": maps, "sections": sections, **({"wake": wake} if "wake" in data else {})}
     return [style.save(draw(data), folder / f"{name}.{figure_format}") for name, draw in figures.items()]
+
+
+def _color(data: xr.Dataset) -> str:
+    """That of the run's inflow model."""
+    name = str(data.attrs["inflow_model"])
+    return style.looks([name])[name][0]
 
 
 def _title(data: xr.Dataset) -> str:

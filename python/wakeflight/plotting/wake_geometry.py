@@ -42,7 +42,7 @@ def figure(run: xr.Dataset, snapshots: Sequence[int] | None = None, all_blades: 
     """Side, top and rear view of tip vortices and blades, one row per snapshot, one scale; see `CAPTION`."""
     chosen = _eventful(run) if snapshots is None else list(snapshots)
     wake = run["wake"].isel(snapshot=chosen) / float(run.attrs["radius"])
-    limits = {c: _limits(wake.sel(xyz=c).values, c) for c in ("x", "y", "z")}
+    limits = {c: extent(wake.sel(xyz=c).values, c) for c in ("x", "y", "z")}
     widths = [limits[across][1] - limits[across][0] for _, across, _, _, _ in VIEWS]
     tall = max(limits["y"][1] - limits["y"][0], limits["z"][1] - limits["z"][0])
     scale = 8.0 / sum(widths)
@@ -125,7 +125,7 @@ def _revolution(run: xr.Dataset, snapshot: int) -> float:
     return round(float(run["snapshot_revolution"][snapshot]), 2)
 
 
-def _limits(values: np.ndarray, component: str) -> tuple[float, float]:
+def extent(values: np.ndarray, component: str) -> tuple[float, float]:
     """Range common to all snapshots, with the rotor inside."""
     rotor = 0.1 if component == "z" else 1.05
     low, high = min(float(values.min()), -rotor), max(float(values.max()), rotor)

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import base64
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -14,24 +13,20 @@ from ..atomic import write_text
 from ..errors import WakeflightError, one_line
 from ..plotting import COMPARISONS, FIGURES, Plot
 from ..plotting.shown import check_units
-from ..plotting.style import save
+from ..plotting.style import looks, save
 from ..progress import Progress, Reported, Silent, heard
 from ..results import by_name
 from ..results import drawn as drawn_there
 from . import viewer
+from .pages import Drawn, environment
 from .summary import Row, configuration, counters, physics, summary, trim_table, warnings, watched
 
 if TYPE_CHECKING:
     import xarray as xr
 
 
-@dataclass(frozen=True)
-class Drawn:
-    """A figure in the page: its caption and its PNG as base64 text."""
-
-    name: str
-    caption: str
-    png: str
+DASHES = {"-": "none", "--": "8 3", "-.": "8 3 2 3", ":": "2 3"}
+"""Lines of figures as a page draws them."""
 
 
 def write(
@@ -48,28 +43,21 @@ def write(
     trim's sticks, attitude and residuals. figure_format: `svg` and `pdf` are written beside the PNG files. units: `si`,
     or `us` for knots, feet, pounds and horsepower. Returns the path of the page.
     """
-    from jinja2 import Environment, PackageLoader, StrictUndefined
-
     out_dir, units = Path(out_dir), check_units(units)
     named = by_name(runs)
     first = next(iter(named.values()))
     several = runs is not first
-    environment = Environment(
-        loader=PackageLoader("wakeflight.report", "templates"),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
+    templates = environment("wakeflight.report")
     plots = COMPARISONS if several else FIGURES
     formats = dict.fromkeys(("png", figure_format))
     drawn_there(out_dir, [*(f"{plot.name}.{each}" for plot in plots for each in formats), "report.html"])
     figures, missed = _figures(plots, named if several else first, out_dir, heard(progress), (figure_format, units))
     viewable = viewer.viewable(named)
-    page = environment.get_template("report.html").render(
+    page = templates.get_template("report.html").render(
         title=_title(first, several),
         names=list(named),
         several=several,
+        looks={name: (color, DASHES[line]) for name, (color, line) in looks(named).items()} if several else {},
         failures={name: run.attrs["failure"] for name, run in named.items() if not run.attrs.get("finished", 1)},
         warnings=[*_common(warnings, named), *missed],
         flown=_join(partial(physics, units=units), named),

@@ -79,7 +79,9 @@ def _range(label: str, run: xr.Dataset, values: np.ndarray, form: str) -> Row:
 def summary(run: xr.Dataset, units: str = "si") -> list[Row]:
     """Flight, trim and wall clock of one run."""
     attrs = run.attrs
-    rows = [Row(NAMES[name], _text(attrs[name])) for name in ("aircraft", "maneuver", "condition") if name in attrs]
+    rows = [
+        Row(NAMES[name], _text(attrs[name], units)) for name in ("aircraft", "maneuver", "condition") if name in attrs
+    ]
     if attrs.get("maneuver_adapted"):
         rows.append(Row(NAMES["maneuver_adapted"], _text(attrs["maneuver_adapted"])))
     rows.append(Row(NAMES["inflow_model"], _text(attrs.get("inflow_model", "–"))))
@@ -176,10 +178,10 @@ def trim_table(trim: xr.Dataset) -> list[Row]:
     return rows
 
 
-def _text(value: object) -> str:
+def _text(value: object, units: str = "si") -> str:
     """An attribute as a reader wants it: a condition, kept as JSON, in words with its units."""
     text = str(value)
-    return described(json.loads(text)) if text.startswith("{") else text
+    return described(json.loads(text), units) if text.startswith("{") else text
 
 
 def _indented(value: object, depth: int = 0) -> str:

@@ -7,11 +7,9 @@ A case goes by the digest of all it depends on: verb, arguments, files of the ai
 
 from __future__ import annotations
 
-import fcntl
 import hashlib
 import io
 import json
-import os
 import zipfile
 from collections.abc import Mapping
 from pathlib import Path
@@ -20,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from .. import atomic
-from ..errors import InputError, StorageFailure
+from ..folder_lock import FolderLock
 from .outcome import Outcome
 
 CASES = "cases"
@@ -32,20 +30,7 @@ class SweepFolder:
     def __init__(self, folder: str | Path) -> None:
         """Lock the folder, which is made."""
         self.folder = Path(folder)
-        try:
-            (self.folder / CASES).mkdir(parents=True, exist_ok=True)
-            self._lock = os.open(self.folder, os.O_RDONLY)
-        except OSError as reason:
-            raise StorageFailure.of(self.folder, reason) from reason
-        try:
-            fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError as reason:
-            os.close(self._lock)
-            said = "another sweep is being written there; allowed: another folder, or wait until it has ended"
-            raise InputError.of("out", str(folder), said) from reason
-        except OSError:
-            # a file system without locks
-            pass
+        self._lock = FolderLock(self.folder, lambda: "another sweep is being written there", CASES)
         atomic.sweep(self.folder)
         atomic.sweep(self.folder / CASES)
 
@@ -55,7 +40,7 @@ class SweepFolder:
 
     def __exit__(self, *_: object) -> None:
         """Let others in."""
-        os.close(self._lock)
+        self._lock.release()
 
     def any(self) -> int:
         """How many cases are there, of this sweep or another."""

@@ -29,7 +29,7 @@ from ..inflow import MODELS, STAND_MODELS, inflow_model, trim_model
 from ..linear import check_method, linearize
 from ..linear.instants import check_inputs
 from ..linear.wake import check_wake
-from ..maneuvers import load_maneuver
+from ..maneuver_files import load_maneuver
 from ..model import flight_regime
 from ..perturbation import offsets_of
 from ..trim import trim

@@ -9,29 +9,23 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ..atomic import write_text
+from ..report.pages import environment
 from .case import Check
 from .run import Result
 
 
 def write(results: Sequence[Result], path: Path) -> Path:
     """Write the page of `results`."""
-    from jinja2 import Environment, PackageLoader, StrictUndefined
     from markupsafe import Markup
 
-    environment = Environment(
-        loader=PackageLoader("wakeflight.validate", "templates"),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    environment.filters |= {"number": number, "difference": difference, "tolerance": tolerance}
-    environment.filters["words"] = lambda text: Markup(words(text))
+    templates = environment("wakeflight.validate")
+    templates.filters |= {"number": number, "difference": difference, "tolerance": tolerance}
+    templates.filters["words"] = lambda text: Markup(words(text))
     groups: dict[str, list[Result]] = {}
     for result in results:
         groups.setdefault(result.case.group, []).append(result)
     counts = {word: sum(r.verdict == word for r in results) for word in _VERDICTS}
-    text = environment.get_template("validation.html").render(
+    text = templates.get_template("validation.html").render(
         groups=groups, counts=counts, n=len(results), seconds=sum(r.seconds for r in results)
     )
     return write_text(path, text)

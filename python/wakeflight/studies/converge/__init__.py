@@ -12,7 +12,8 @@ from ...arguments import checked
 from ...condition import FlightCondition, condition_for
 from ...errors import InputError, NumericalFailure
 from ...inflow import InflowModel, inflow_model
-from ...maneuvers import SHIPPED, Maneuver, load_maneuver
+from ...maneuver_files import SHIPPED, load_maneuver
+from ...maneuvers import Maneuver
 from ...progress import Reported, heard, reporting
 from ...tunnel import stand_inflow
 from ..case import Case

@@ -63,7 +63,7 @@ class Planned:
     def case(self) -> Case:
         """What is run, everything loaded."""
         from ...condition import condition_for
-        from ...maneuvers import SHIPPED, load_maneuver
+        from ...maneuver_files import SHIPPED, load_maneuver
 
         aircraft = _aircraft(self.modes)
         given: dict[str, Any] = dict(self.given)

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,7 +11,7 @@ import numpy as np
 from ...plotting import style
 from ...plotting.disk import difference, draw, mark_directions, tidy
 from ...plotting.style import styled
-from ...plotting.wake_geometry import VIEWS
+from ...plotting.wake_geometry import VIEWS, extent
 from .quantities import axis_of, filament
 
 if TYPE_CHECKING:
@@ -115,13 +115,9 @@ def _legend(figure: Figure, axes: Axes) -> None:
     figure.legend(handles, labels, loc="outside lower center", ncols=len(labels))
 
 
-def _limits(shapes: object, component: int, name: str) -> tuple[float, float]:
+def _limits(shapes: Iterable[np.ndarray], component: int, name: str) -> tuple[float, float]:
     """Range of a coordinate common to all filaments, with the rotor inside."""
-    values = np.concatenate([nodes[:, component] for nodes in shapes])  # type: ignore[attr-defined]
-    rotor = 0.1 if name == "z" else 1.05
-    low, high = min(float(values.min()), -rotor), max(float(values.max()), rotor)
-    margin = 0.03 * (high - low)
-    return low - margin, high + margin
+    return extent(np.concatenate([nodes[:, component] for nodes in shapes]), name)
 
 
 def _rotor(axes: Axes, view: str) -> None:

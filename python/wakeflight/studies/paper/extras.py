@@ -100,8 +100,8 @@ def inflow(runs: Runs) -> Figure:
             axes.plot(run.time.values / period(run), smoothed(run, "inflow_mean"), label=model, **LOOKS[model])
         axes.set(ylabel="λ₀ [–], down +", title=maneuver.replace("-", " "))
         axes.margins(x=0)
-        axes.legend()
     axes.set_xlabel("rotor revolutions")
+    figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=len(MODELS))
     return figure
 
 
@@ -119,8 +119,10 @@ def caps(runs: Runs) -> Figure:
         ]
         marched = runs[f"{maneuver}/time-marching"]
         ratio = [cost.work_ratio(run, marched) for run in flights]
-        for axes, values in ((left, share), (right, ratio)):
-            axes.bar(at, values, width=0.34, color=style.COLORS[k], label=maneuver.replace("-", " "))
+        for axes, values, digits in ((left, share, "%.0f"), (right, ratio, "%.1f")):
+            bars = axes.bar(at, values, width=0.34, color=style.COLORS[k], label=maneuver.replace("-", " "))
+            # a bar of no height is told by its number
+            axes.bar_label(bars, fmt=digits, fontsize=7)
     for axes in (left, right):
         axes.set_xticks(np.arange(len(names)), names)
         axes.set_xlabel("cap on iterations per revolution")
@@ -128,5 +130,6 @@ def caps(runs: Runs) -> Figure:
     left.set(ylabel="revolutions not converged [%]", ylim=(0, 100))
     right.axhline(1.0, color=style.GREY, linewidth=0.8, linestyle="--")
     right.set_ylabel("work over time marching [–]")
+    right.margins(y=0.1)
     left.legend()
     return figure

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import base64
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -14,6 +13,7 @@ from ...atomic import write_text
 from ...export import vtk
 from ...plotting.style import save
 from ...report import viewer
+from ...report.pages import Drawn, environment
 from ...report.summary import configuration, counters, summary, warnings
 from . import cost, extras, readings
 from .cases import AUGMENTED, MANEUVERS, MODELS
@@ -29,15 +29,6 @@ if TYPE_CHECKING:
     Runs = Mapping[str, xr.Dataset]
 
 
-@dataclass(frozen=True)
-class Drawn:
-    """A figure in the page: file name, caption, and its PNG as base64 text."""
-
-    name: str
-    caption: str
-    png: str
-
-
 def write(
     runs: Runs,
     out_dir: Path,
@@ -50,8 +41,6 @@ def write(
     runs: flights by case name. rotor: shaft_tilt [rad], hinge_offset, root_cutout and chord over R. findings, missed: of
     the studies, and of those that could not be finished.
     """
-    from jinja2 import ChoiceLoader, Environment, PackageLoader, StrictUndefined
-
     shown = (*MANEUVERS, AUGMENTED)
     flights = {maneuver: {model: runs[f"{maneuver}/{model}"] for model in MODELS} for maneuver in shown}
     table, both = judge(runs), readings.judged(runs)
@@ -64,15 +53,9 @@ def write(
         "readings": _draw("readings", readings.CAPTION, lambda: readings.figure(runs), out_dir),
     }
     export(flights, out_dir / "paraview")
-    environment = Environment(
-        loader=ChoiceLoader([PackageLoader(f"wakeflight.{each}", "templates") for each in ("studies.paper", "report")]),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
+    templates = environment("wakeflight.studies.paper", "wakeflight.report")
     first = runs["arrested-descent/relaxation"]
-    page = environment.get_template("paper.html").render(
+    page = templates.get_template("paper.html").render(
         version=first.attrs.get("program_version", ""),
         statements=table,
         verdicts=VERDICTS,

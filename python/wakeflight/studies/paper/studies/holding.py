@@ -98,5 +98,6 @@ def figure(runs: Runs) -> Figure:
         lower.plot(turns, smoothed(run, "force_z") / 1e3, color=color, linestyle=line)
     upper.set_ylabel("λ₀ [–], down +")
     lower.set(ylabel="Z [kN], down +", xlabel="rotor revolutions")
-    upper.legend()
+    # beside the curves: they take the whole of both panels
+    figure.legend(*upper.get_legend_handles_labels(), loc="outside lower center", ncols=2)
     return figure

@@ -127,5 +127,5 @@ def figure(runs: Runs) -> Figure:
         column[1].set_xlabel("rotor revolutions")
     grid[0, 0].set_ylabel("Δp [deg/s], right side down +")
     grid[1, 0].set_ylabel("Δq [deg/s], nose up +")
-    grid[0, 0].legend()
+    figure.legend(*grid[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=len(WAYS))
     return figure
