@@ -214,3 +214,24 @@ def test_numbers_of_a_rotor_file_are_replaced_by_name_and_kept_in_the_run(tmp_pa
         stiffer.with_rigid_blades().with_({"rotor.omega": "26 rad/s"})
     with pytest.raises(wf.InputError, match=r"rotor\.omega"):
         wf.load_rotor(path).with_({"rotor.omega": "20 m"})
+
+
+def test_a_flight_says_which_blade_lies_on_its_stop_and_since_when():
+    free = wf.load_aircraft("uh60a").with_rigid_blades()
+    stop = {"rotor.blade.flap_stops": {"high": "4 deg", "stiffness": "1e6 N m/rad"}}
+    runs = {}
+    for name, aircraft in {"free": free, "stopped": free.with_(stop)}.items():
+        start = wf.trim(aircraft, wf.FlightCondition(speed="120 kt"), inflow="dynamic")
+        hands = wf.Maneuver("hands off", {}, seconds=1.0)
+        runs[name] = wf.fly(start, hands, revolutions=2, integrator="fixed").data
+    assert np.degrees(runs["free"].flap.max()) > 4.5
+    assert runs["stopped"].flap.max() < runs["free"].flap.max() - np.radians(0.2)
+    assert "flap stop" not in runs["free"].attrs["warnings"]
+    assert "pushes its flap stop in by" in runs["stopped"].attrs["warnings"]
+
+
+def test_nodes_below_the_ground_are_told():
+    from wakeflight.monitors import hinges
+
+    told = hinges.below_ground(np.array([0.0, 0.1, 0.2]))
+    assert told.text == "10.0 % on average, 20.0 % at most" and told.warning is None

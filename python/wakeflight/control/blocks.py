@@ -100,10 +100,10 @@ class Block(Controller):
         moved = dict.fromkeys(self.outputs, 0.0)
         share = self.share(sensors)
         changes = [signal - rest for signal, rest in zip(signals, self.reference, strict=True)]
-        for (stick, size, angle, smooth), change in zip(self.fed, self.counted(changes), strict=True):
+        for (name, size, angle, smooth), change in zip(self.fed, self.counted(changes), strict=True):
             if angle:
                 change = math.remainder(change, 2.0 * math.pi)
-            moved[stick] += size * share * smooth.advance(change, dt)
+            moved[name] += size * share * smooth.advance(change, dt)
         return self.within(moved)
 
     def share(self, sensors: Sensors) -> float:

@@ -88,7 +88,7 @@ class Sensors:
     def climb_rate(self) -> float:
         """Speed upward [m/s]."""
         x, y, z = self._down
-        return -(self.u * x + self.v * y + self.w * z)
+        return float(-(self.u * x + self.v * y + self.w * z))
 
     @cached_property
     def _measured(self) -> tuple[np.ndarray, dict[str, Any]]:

@@ -19,7 +19,7 @@ def stops(hinge: str, angle: np.ndarray, given: Mapping[str, Any], time: np.ndar
     low = -np.inf if given["low"] is None else given["low"]
     high = np.inf if given["high"] is None else given["high"]
     beyond = np.maximum(angle - high, low - angle)
-    on_stop = (beyond > 0.0).any(axis=1)
+    on_stop = np.asarray((beyond > 0.0).any(axis=1))
     span = f"{np.degrees(angle.min()):.2f} to {np.degrees(angle.max()):.2f} deg"
     ends = " to ".join("none" if each is None else f"{np.degrees(each):.4g}" for each in (given["low"], given["high"]))
     warning = None
