@@ -23,6 +23,7 @@ from .aircraft import Aircraft
 from .arguments import checked
 from .errors import InputError
 from .flight_input import FlightInput
+from .model import Model
 from .modes import blade_modes
 from .results import frames
 from .sticks import INCH, STICKS
@@ -61,21 +62,19 @@ def blade_loads(run: xr.Dataset) -> xr.Dataset:
         raise InputError.of("run", run.attrs.get("maneuver", "result"), "must be the Dataset of a flight")
     if "input" not in run.attrs:
         raise InputError.of("run", run.attrs.get("maneuver", "flight"), "does not carry its input: fly it again")
-    aircraft = FlightInput.from_text(run.attrs["input"]).aircraft
-    shape = frames.geometry(run)
-    if shape["rotation"] != 1:
-        raise InputError.of("run", aircraft.name, "must have a rotor that turns counter-clockwise")
+    given = FlightInput.from_text(run.attrs["input"])
+    aircraft, shape = given.aircraft, frames.geometry(run)
     radius = float(run.attrs["radius"])
     r, alpha, mach = run["station"].values * radius, run["alpha"].values, run["mach"].values
     shapes, data = mode_shapes(aircraft, r), aircraft.core_data()
     bent = {part: np.einsum("tbk,ks->tbs", run["modal"].values, values) for part, values in shapes.items()}
-    twist, airfoil = data["rotor"]["blade"]["twist"], data["rotor"]["airfoil"]
+    twist = data["rotor"]["blade"]["twist"]
     pitch = (
         _controls(run, data["rigging"], float(aircraft.rotor.swashplate_phase))[..., None]
         + np.interp(r, twist["x"], twist["y"])
         + bent["twist"]
     )
-    cd, cm = (sections(airfoil, name, r, alpha, mach) for name in ("cd", "cm"))
+    cd, cm = section_coefficients(given, alpha, mach)[1:]
     cl, phi = run["cl"].values, pitch - alpha
     chord = np.asarray(shape["chords"])
     force = 0.5 * shape["density"] * (mach * shape["speed_of_sound"]) ** 2 * chord
@@ -113,6 +112,13 @@ def blade_loads(run: xr.Dataset) -> xr.Dataset:
     return xr.Dataset(arrays, {**coordinates, "part": list(shapes)}, {name: run.attrs[name] for name in kept})
 
 
+def section_coefficients(given: FlightInput, alpha: np.ndarray, mach: np.ndarray) -> list[np.ndarray]:
+    """Lift, drag and moment coefficients of the flight's section tables for alpha [rad] and mach (..., n_stations)."""
+    model = Model.build(given.aircraft, given.asked.condition.completed(given.aircraft), given.asked.inflow)
+    rows = [np.reshape(each, (-1, model.stations.size)) for each in (alpha, mach)]
+    return [each.reshape(np.shape(alpha)) for each in model.core.section_coefficients(*rows)]
+
+
 def mode_shapes(aircraft: Aircraft, r: np.ndarray) -> dict[str, np.ndarray]:
     """Flap and lead displacement [m] and twist [rad] of the modes (n_modes, n) at `r` [m], per unit of `modal`."""
     modes = blade_modes(aircraft)
@@ -135,38 +141,6 @@ def _controls(run: xr.Dataset, rigging: dict[str, Any], phase: float) -> np.ndar
     psi = run["azimuth"].values + phase
     theta: np.ndarray = theta_0[:, None] + theta_1c[:, None] * np.cos(psi) + theta_1s[:, None] * np.sin(psi)
     return theta
-
-
-def sections(data: dict[str, Any], name: str, r: np.ndarray, alpha: np.ndarray, mach: np.ndarray) -> np.ndarray:
-    """Coefficient `name` (`cl`, `cd`, `cm`) of the sections at `r` (n,) [m] for alpha [rad] and mach (..., n), from their
-    tables."""
-    places, tables = np.asarray(data["stations"]), data["tables"]
-    found = np.empty(np.shape(alpha))
-    for j, x in enumerate(r):
-        inner = max(int(np.searchsorted(places, x, side="right")) - 1, 0)
-        share = 0.0
-        if not data["stepwise"] and x > places[0] and inner + 1 < places.size:
-            share = (x - places[inner]) / (places[inner + 1] - places[inner])
-        mixed = [(1.0 - share, tables[inner]), *([(share, tables[inner + 1])] if share else [])]
-        found[..., j] = sum(weight * _looked_up(table, name, alpha[..., j], mach[..., j]) for weight, table in mixed)
-    return found
-
-
-def _looked_up(table: dict[str, Any], name: str, alpha: np.ndarray, mach: np.ndarray) -> np.ndarray:
-    """Bilinear in angle and Mach number, held beyond the first and the last."""
-    x, y, values = (np.asarray(table[name][key]) for key in ("x", "y", "values"))
-    turned = np.remainder(alpha + np.pi, 2.0 * np.pi) - np.pi
-    i = np.clip(np.searchsorted(x, turned, side="right") - 1, 0, x.size - 2)
-    a = np.clip((turned - x[i]) / (x[i + 1] - x[i]), 0.0, 1.0)
-    if y.size == 1:
-        found = (1.0 - a) * values[i, 0] + a * values[i + 1, 0]
-    else:
-        k = np.clip(np.searchsorted(y, mach, side="right") - 1, 0, y.size - 2)
-        b = np.clip((mach - y[k]) / (y[k + 1] - y[k]), 0.0, 1.0)
-        low = (1.0 - a) * values[i, k] + a * values[i + 1, k]
-        found = (1.0 - b) * low + b * ((1.0 - a) * values[i, k + 1] + a * values[i + 1, k + 1])
-    coefficient: np.ndarray = found + (float(table["cd_increment"]) if name == "cd" else 0.0)
-    return coefficient
 
 
 @checked

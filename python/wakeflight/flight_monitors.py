@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .monitors import Monitor, Places, airframe, rotor
+from .monitors import Monitor, Places, airframe, hinges, rotor
 from .recorder import Recorder
 from .sticks import INCH, STICKS
 from .trim.monitors import section_monitors
@@ -38,7 +38,7 @@ def monitors(run: Recorder) -> tuple[Monitor, ...]:
         *airframe.rotor_speed(run.rotor_speed, aircraft.limits.rotor_speed),
         airframe.ground(y[:, 12], run.start.condition.altitude, time),
     ]
-    return (*found, *_of_wake(run, time))
+    return (*found, *_of_hinges(run, time), *_of_wake(run, time))
 
 
 def _of_wake(run: Recorder, time: np.ndarray) -> list[Monitor]:
@@ -53,4 +53,22 @@ def _of_wake(run: Recorder, time: np.ndarray) -> list[Monitor]:
         found.append(rotor.node_motion(run.scalars["max_displacement"][:n], run.model.rotor["radius"], time))
     if run.model.inflow.is_relaxed:
         found.append(rotor.unrenewed(counted["unconverged_revolutions"], counted["relaxation_updates"]))
+    share = run.share_below_ground()
+    if share is not None and share.size:
+        found.append(hinges.below_ground(share))
     return found
+
+
+def _of_hinges(run: Recorder, time: np.ndarray) -> list[Monitor]:
+    """What the stops of the hinges have met, where the aircraft's file has them."""
+    model, n = run.model, run.n_recorded
+    given = [(name, model.data["rotor"]["blade"].get(f"{name}_stops")) for name in ("flap", "lag")]
+    if all(stop is None for _, stop in given):
+        return []
+    parts = [np.ascontiguousarray(run.state[:n, a:b]) for a, b in model.layout["modal"]]
+    angles = zip(*(model.core.hinge_angles(part) for part in parts), strict=True)
+    return [
+        hinges.stops(name, np.stack(angle, axis=1), stop, time)
+        for (name, stop), angle in zip(given, angles, strict=True)
+        if stop is not None
+    ]

@@ -10,13 +10,14 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
-from .attitude import euler_angles
+from .attitude import body_to_inertial, euler_angles
 from .control import ControlLog
 from .errors import NumericalFailure, known
 from .maneuvers import Maneuver
 from .model import Model
 from .modes import mode_labels
 from .monitors import Monitor, Places, rotor, variables
+from .results.frames import body_of_hub
 from .runlog import MemoryRows, MemoryWakes
 from .wind import passing
 
@@ -280,6 +281,25 @@ class Recorder:
             # without a convergence phase the wake has not been stepped yet: the first step's stands for the start
             distance[0] = distance[1]
         return distance
+
+    def share_below_ground(self) -> np.ndarray | None:
+        """Share of the nodes of the tip vortices below the ground in every wake kept (n_snapshots,); None without ground."""
+        height = self.start.condition.height
+        steps, kept = self._wakes.whole()
+        if height is None or not kept:
+            return None
+        rotor = self.model.data["rotor"]
+        hub = np.array(rotor["position"], dtype=float)
+        from_hub = body_of_hub(rotor["shaft_tilt_forward"], rotor["shaft_tilt_lateral"])
+        found = []
+        for step, wake in zip(steps, kept["wake"], strict=True):
+            if step < self.n_recorded:
+                y = self.state[step]
+                # down in body axes; the ground is as far below the start as the hub is above it there
+                down = body_to_inertial(y[6:10])[2]
+                depth = y[12] + down @ hub + wake @ (down @ from_hub)
+                found.append(float(np.mean(depth > height + hub[2])))
+        return np.array(found)
 
     def _modal(self, y: np.ndarray) -> np.ndarray:
         """Modal coordinates (time, blade, mode) as fractions of the tip deflection: angle of the tip in the mode [rad]."""

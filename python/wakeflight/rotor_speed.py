@@ -216,9 +216,10 @@ class FreeClock:
     def time(self, step: Time) -> Time:
         """Time [s] after `step` steps: exact for the present one and the next, beyond them at the present speed."""
         ahead = step - self._step
-        if np.ndim(step) == 0 and ahead in (0, 1):
-            now: Any = self._t + self._ahead() if ahead else self._t
-            return now  # type: ignore[no-any-return]  # a number, as `step` is
+        match ahead:
+            case int() if ahead in (0, 1):
+                now: Any = self._t + self._ahead() if ahead else self._t
+                return now  # type: ignore[no-any-return]  # a number, as `step` is
         return self._t + ahead * (self.delta_psi / self._turn[1])
 
     def duration(self, step: int) -> float:

@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 
 from .arguments import checked
-from .attitude import body_to_inertial, euler_angles
+from .attitude import euler_angles
 from .control import Augmentation, Chain, Sensors, augmentation
 from .engine import Engine, Turning, turning
 from .errors import GroundContact, InputError, NumericalFailure, known
@@ -196,10 +196,9 @@ class Simulation(Stepping):
         """Wind over the step that begins, where the aircraft is at its middle, half a step of azimuth on."""
         if self._surroundings is None:
             return
-        half, y = 0.5 * self.delta_t, np.array(self._y)
-        y[10:13] += half * (body_to_inertial(y[6:10]) @ y[:3])
+        half = 0.5 * self.delta_t
         azimuth = 2 * np.pi * (self._step + 0.5) / self.model.steps_per_revolution
-        self._air = self._surroundings.at(self.t + half, y, azimuth)
+        self._air = self._surroundings.at(self.t + half, self._y, azimuth, half)
 
     def _turned(self, t: float) -> None:
         """The clock follows the rotor, the engines it and the stick, the wind where all are."""
@@ -278,11 +277,14 @@ class Simulation(Stepping):
             out = model.core.outputs(t, y, rate, inputs)
             return rate, out | {"torque": -model.hand * out["hub_moment"][2]}
 
-        if self.engine is None:
+        if self.engine is not None:
+            speed = float(y[model.layout["turn"][0] + 1])
+        elif model.rotor_speed:
             speed = model.omega * float(shares(model.rotor_speed, np.asarray(t)))
         else:
-            speed = float(y[model.layout["turn"][0] + 1])
-        return Sensors(y, self.start.condition.altitude, speed, measure)
+            speed = model.omega
+        through_air = None if self._air is None else self._air.against(y)
+        return Sensors(y, self.start.condition.altitude, speed, measure, through_air)
 
     def _asked(self, sticks: Mapping[str, float] | Sequence[float] | None) -> np.ndarray:
         """Sticks [m from the stop] for what was asked [inches about trim]."""

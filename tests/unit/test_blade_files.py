@@ -86,9 +86,38 @@ def test_coning_on_a_flap_spring_is_the_closed_form(tmp_path):
     assert 0.7 * RADIUS < coning[0.0] < 0.8 * RADIUS
 
 
+def test_a_blade_lies_on_its_flap_stop_as_on_a_spring_that_begins_there(tmp_path):
+    # the coning of hover goes beyond a stop: the balance of the free blade, and K (beta - stop) besides
+    stop, stiffness, arm = math.radians(1.0), 4e5, {}
+    for name, stops in {
+        "free": "",
+        "stopped": f'flap_stops = {{ high = "1 deg", stiffness = "{stiffness} N m/rad" }}\n',
+    }.items():
+        stand = wf.tunnel(
+            rotor(tmp_path, MOMENTS + stops, "flapping"), collective="9 deg", speed="0 kt", inflow="dynamic"
+        )
+        assert stand.beta_0 > stop
+        moment = stand.beta_0 * INERTIA * OMEGA**2 * (1.0 + HINGE * FIRST / INERTIA) + 9.80665 * FIRST
+        arm[name] = (moment + (stiffness * (stand.beta_0 - stop) if stops else 0.0)) / (stand.thrust / 4)
+    assert arm["stopped"] == pytest.approx(arm["free"], rel=5e-3)
+
+
 @pytest.mark.parametrize(
     ("blade", "root", "named"),
     [
+        (
+            'flap_stops = { low = "-6 deg", stiffness = "1e6 N m/rad" }\n' + MOMENTS,
+            "clamped",
+            ("flap_stops", "no flap"),
+        ),
+        ('lag_stops = { low = "-6 deg", stiffness = "1e6 N m/rad" }\n' + MOMENTS, "flapping", ("lag_stops", "no lag")),
+        ('flap_stops = { stiffness = "1e6 N m/rad" }\n' + MOMENTS, "hinged", ("needs low, high, or both",)),
+        (
+            'flap_stops = { low = "2 deg", high = "1 deg", stiffness = "1 N m/rad" }\n' + MOMENTS,
+            "hinged",
+            ("not below",),
+        ),
+        ('flap_stops = { low = "-2 deg" }\n' + MOMENTS, "hinged", ("flap_stops.stiffness",)),
         ('flap_spring = "1 N m/rad"\n' + MOMENTS, "clamped", ("flap_spring", "no flap hinge")),
         ('lag_spring = "1 N m/rad"\n' + MOMENTS, "flapping", ("lag_spring", "no lag hinge")),
         ('flap_spring = "-1 N m/rad"\n' + MOMENTS, "hinged", ("rotor.blade.flap_spring",)),
@@ -164,3 +193,45 @@ def test_an_aircraft_flies_with_lag_held_and_springs(tmp_path):
     flight = wf.fly(start, wf.arrested_descent(), inflow="dynamic", revolutions=2, integrator="fixed")
     assert flight.data.sizes["mode"] == 1
     assert np.all(np.isfinite(flight.data.modal))
+
+
+def test_numbers_of_a_rotor_file_are_replaced_by_name_and_kept_in_the_run(tmp_path):
+    spring = 'flap_spring = "2e4 N m/rad"\n'
+    path = rotor(tmp_path, MOMENTS + spring)
+    stiffer = wf.load_rotor(path).with_({"rotor.blade.flap_spring": "x 2"}).with_({"rotor.omega": "25 rad/s"})
+    assert stiffer.data["blade"]["flap_spring"] == pytest.approx(4e4) and stiffer.omega == 25.0
+    assert dict(stiffer.changes) == {"rotor.blade.flap_spring": "x 2", "rotor.omega": "25 rad/s"}
+    written = tmp_path / "written.toml"
+    written.write_text(path.read_text().replace("2e4", "4e4").replace(f"{OMEGA}", "25"))
+    asked = {"collective": "9 deg", "speed": "20 m/s", "inflow": "dynamic"}
+    first, second = (wf.tunnel(each, **asked) for each in (stiffer, wf.load_rotor(written)))
+    assert first.ct == second.ct and first.beta_0 == second.beta_0
+    assert "rotor.omega" in str(first.data.attrs["configuration"])
+    # of an aircraft the same, by the names of its file
+    faster = wf.load_rotor("bo105").with_({"rotor.omega": "45 rad/s"})
+    assert faster.omega == 45.0 and faster.with_({"rotor.omega": "44 rad/s"}).omega == 44.0
+    with pytest.raises(wf.InputError, match="must be given first"):
+        stiffer.with_rigid_blades().with_({"rotor.omega": "26 rad/s"})
+    with pytest.raises(wf.InputError, match=r"rotor\.omega"):
+        wf.load_rotor(path).with_({"rotor.omega": "20 m"})
+
+
+def test_a_flight_says_which_blade_lies_on_its_stop_and_since_when():
+    free = wf.load_aircraft("uh60a").with_rigid_blades()
+    stop = {"rotor.blade.flap_stops": {"high": "4 deg", "stiffness": "1e6 N m/rad"}}
+    runs = {}
+    for name, aircraft in {"free": free, "stopped": free.with_(stop)}.items():
+        start = wf.trim(aircraft, wf.FlightCondition(speed="120 kt"), inflow="dynamic")
+        hands = wf.Maneuver("hands off", {}, seconds=1.0)
+        runs[name] = wf.fly(start, hands, revolutions=2, integrator="fixed").data
+    assert np.degrees(runs["free"].flap.max()) > 4.5
+    assert runs["stopped"].flap.max() < runs["free"].flap.max() - np.radians(0.2)
+    assert "flap stop" not in runs["free"].attrs["warnings"]
+    assert "pushes its flap stop in by" in runs["stopped"].attrs["warnings"]
+
+
+def test_nodes_below_the_ground_are_told():
+    from wakeflight.monitors import hinges
+
+    told = hinges.below_ground(np.array([0.0, 0.1, 0.2]))
+    assert told.text == "10.0 % on average, 20.0 % at most" and told.warning is None

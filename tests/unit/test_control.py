@@ -114,7 +114,7 @@ def test_servos_stop_at_their_stops_and_say_so():
     target = np.full(4, 0.2)
     stick, limited, stopped = moving.advance(target, target, 0.1)
     assert stick == pytest.approx([0.2, 0.2, 0.1 / 3.0, 0.2])
-    assert stopped.tolist() == [False, False, True, False] and not limited.any()
+    assert stopped == [False, False, True, False] and not any(limited)
 
 
 def test_servos_that_cannot_be_are_refused():

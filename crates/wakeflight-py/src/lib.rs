@@ -24,7 +24,7 @@ mod _core {
     #[pymodule_export]
     use crate::{
         airfoil::{AirfoilCycle, airfoil_cycle, unsteady_models},
-        atmosphere::standard_atmosphere,
+        atmosphere::{fourier_velocity, standard_atmosphere},
         blade::BladeModes,
         exchange::{PyExchange, PySteadyWake},
         flight::{FixedStep, Linearised},

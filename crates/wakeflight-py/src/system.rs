@@ -1,7 +1,7 @@
 //! The system: F, its Jacobian, trim equations, what a run records.
 
 use crate::checks::{
-    Array, Named, Room, Row, Table, array, failed, instruction_set, invalid, pack, room, sized,
+    Array, Named, Room, Row, Table, array, failed, instruction_set, invalid, map, pack, room, sized,
 };
 use crate::trim::{TrimLayout, TrimProblem};
 use numpy::Ix2;
@@ -366,6 +366,24 @@ impl PySystem {
         let (mut gamma, mut slope) = (vec![0.0; lambda.len()], vec![0.0; lambda.len()]);
         rotor.section_circulation(self.inner.air, &hub, (&blade).into(), lambda, &mut gamma, &mut slope);
         Ok(array(gamma, &[]))
+    }
+
+    /// Angles of blades at their hinges [rad], flap up and lead forward positive, for modal coordinates (n, n_modes).
+    fn hinge_angles(&self, q: Table) -> PyResult<(Array, Array)> {
+        let (rotor, rows) = (self.inner.main(), q.as_array().nrows());
+        let motions = self.motions(&(q.clone(), q), rows)?;
+        let (flap, lead): (Vec<f64>, Vec<f64>) = motions.iter().map(|m| rotor.hinge_angles(m)).unzip();
+        Ok((array(flap, &[]), array(lead, &[])))
+    }
+
+    /// Lift, drag and moment coefficients of the tables of the stations for angles of attack [rad] and Mach numbers
+    /// (rows, n_stations).
+    fn section_coefficients(&self, alpha: Table, mach: Table) -> PyResult<[Array; 3]> {
+        let (rotor, rows) = (self.inner.main(), alpha.as_array().nrows());
+        let n = rotor.blade.stations.len();
+        let found =
+            rotor.section_coefficients(&map("alpha", &alpha, rows, n)?, &map("mach", &mach, rows, n)?);
+        Ok(found.map(|each| array(each, &[rows])))
     }
 
     /// Memory of sections that remember at time `t` [s] of the trimmed revolution; None where they do not.

@@ -6,6 +6,7 @@ use mechanics_support::beam_support::uh60a;
 use mechanics_support::*;
 use wakeflight::airfoil::span::SpanSections;
 use wakeflight::airfoil::unsteady::Model;
+use wakeflight::blade::hinge::HingeStops;
 use wakeflight::system::instant::{Disturbance, EngineInput, Gust, HeldInflow, Inputs};
 use wakeflight::system::model::System;
 
@@ -71,6 +72,9 @@ fn cases(smooth: bool) -> Vec<(System, Inputs, &'static str)> {
         if smooth { smooth_airfoil(5.7, 0.4, 0.01, -0.02) } else { data_files::airfoil("sc1095", 0.002) };
     general.rotor.airfoil = SpanSections::new(vec![2.0, 6.5], false, vec![inner, tip]).unwrap();
     (general.rotor.blade.flap_spring, general.rotor.blade.lag_spring) = (6e4, 9e4);
+    // blades lie on them in the states of the tests
+    let stops = HingeStops { low: Some(-1e-4), high: Some(1e-4), stiffness: 5e5 };
+    (general.rotor.blade.flap_stops, general.rotor.blade.lag_stops) = (Some(stops), Some(stops));
     let general = build(&general, true, 9.80665);
     let (dynamic, held) = (build(&data, false, 9.80665), build(&data, true, 9.80665));
     let mut random = Random::new(8);
@@ -123,7 +127,7 @@ fn cases(smooth: bool) -> Vec<(System, Inputs, &'static str)> {
         (
             general,
             inputs(STICK, HeldInflow::Stations { inflow, mean: 0.03 }),
-            "hinge springs, two sections along the span",
+            "hinge springs and stops, two sections along the span",
         ),
         (held, inputs(STICK, HeldInflow::Vacuum), "vacuum"),
     ]

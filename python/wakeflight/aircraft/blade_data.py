@@ -34,6 +34,9 @@ WITHOUT = {
 }
 """What a number of a blade means where its file does not give it; a rigid blade is given no stiffness to feel."""
 
+STOPS = ("flap_stops", "lag_stops")
+"""Keys of a blade without which nothing stops it at its hinges."""
+
 
 def blade_data(rotor: Any, path: Path) -> dict[str, Any]:
     """Blade of `[rotor]` of the file at `path` with its structure, tables checked for coverage."""
@@ -61,6 +64,7 @@ def blade_data(rotor: Any, path: Path) -> dict[str, Any]:
         **WITHOUT,
         **given,
         "rigid": not blade.flexible,
+        **{key: getattr(blade, key).data for key in blade.given(STOPS)},
     }
 
 

@@ -9,7 +9,7 @@ from typing import Literal
 
 from pydantic import model_validator
 
-from .fields import DEG, Fraction, Group, Length, Offset, Spring
+from .fields import DEG, Angle, Fraction, Group, Length, Offset, Spring
 from .number import scalar
 from .tables import Table
 
@@ -18,6 +18,31 @@ OF_ELASTIC = ("structure", "control_stiffness", "km1_over_ktheta", "ka_over_kthe
 
 ABOUT_HINGE = ("blade_mass", "first_moment", "flap_inertia")
 """Keys that are all there is of the mass of a slender rigid blade: its moments about the hinge."""
+
+
+class HingeStops(Group):
+    """Stops of a hinge: angles from which a blade lies on a stiff spring that pushes it back, one of them at least.
+
+    flap: up positive, from the preconed span, `low` is the droop stop; lag: forward positive, `low` the stop aft.
+    """
+
+    low: Angle | None = None
+    high: Angle | None = None
+    stiffness: scalar("N m/rad", above=0.0, high=1e9)
+
+    @model_validator(mode="after")
+    def _apart(self) -> HingeStops:
+        if self.low is None and self.high is None:
+            raise ValueError("needs low, high, or both")
+        if self.low is not None and self.high is not None and not self.low < self.high:
+            raise ValueError("has low not below high")
+        return self
+
+    @property
+    def data(self) -> dict[str, float | None]:
+        """As the core reads it."""
+        low, high = (None if each is None else float(each) for each in (self.low, self.high))
+        return {"low": low, "high": high, "stiffness": float(self.stiffness)}
 
 
 class BladeGroup(Group):
@@ -39,6 +64,8 @@ class BladeGroup(Group):
     flap_inertia: scalar("kg m2", above=0.0, high=1e6) | None = None
     flap_spring: Spring | None = None
     lag_spring: Spring | None = None
+    flap_stops: HingeStops | None = None
+    lag_stops: HingeStops | None = None
     straight_tip: bool = False
     pitch_axis_chord_fraction: Fraction | None = None
     control_stiffness: scalar("N m/rad", above=0.0, high=1e9) | None = None
@@ -72,8 +99,10 @@ class BladeGroup(Group):
 
     @model_validator(mode="after")
     def _springs_at_hinges(self) -> BladeGroup:
-        if self.flap_spring is not None and self.root == "clamped":
-            raise ValueError("has a flap_spring, but root = clamped has no flap hinge")
-        if self.lag_spring is not None and self.root != "hinged":
-            raise ValueError(f"has a lag_spring, but root = {self.root} has no lag hinge")
+        for key in self.given(("flap_spring", "flap_stops")):
+            if self.root == "clamped":
+                raise ValueError(f"has {key}, but root = clamped has no flap hinge")
+        for key in self.given(("lag_spring", "lag_stops")):
+            if self.root != "hinged":
+                raise ValueError(f"has {key}, but root = {self.root} has no lag hinge")
         return self

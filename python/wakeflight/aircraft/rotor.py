@@ -5,7 +5,10 @@ from __future__ import annotations
 
 import copy
 import math
-from dataclasses import dataclass, replace
+import tomllib
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -25,6 +28,7 @@ from .rotor_checks import check_rotor, unused_on_a_stand
 from .rotor_file import UNSTATED, RotorFile, written_out
 from .shipped import SHIPPED
 from .span import check_span, span_data, tip_section
+from .varied import plain, rewritten
 from .versions import groups_of
 
 FINEST_DEFAULT_STEPS = 36
@@ -44,6 +48,22 @@ class Rotor:
     warnings: tuple[str, ...] = ()
     weight: float | None = None
     """Weight [N] that the aircraft, or the `[condition]` of the rotor file, names; None where there is none."""
+    changes: Mapping[str, Any] = field(default_factory=dict)
+    """What `with_` gave in place of the file's numbers, by dotted names."""
+    again: Callable[[dict[str, Any]], Rotor] | None = field(default=None, repr=False, compare=False)
+    """Reads it anew with numbers replaced; None of one that was changed since it was loaded."""
+
+    def with_(self, changes: Any) -> Rotor:
+        """This rotor with numbers of its file replaced, by dotted names, checked as the file is: see `Aircraft.with_`.
+
+        Directly after loading: what other methods changed would be lost, and is refused.
+        """
+        if self.again is None:
+            raise InputError.of("changes", self.name, "must be given first: load_rotor(...).with_(...), then the rest")
+        return self.again(plain(changes))
+
+    def _changed(self, **values: Any) -> Rotor:
+        return replace(self, again=None, **values)
 
     def _along(self, name: str, station: float) -> float:
         """Value of a column of the blade at `station` [m], held beyond its ends."""
@@ -93,22 +113,22 @@ class Rotor:
 
     def with_speed(self, omega: float) -> Rotor:
         """The same rotor turning at `omega` [rad/s]."""
-        return replace(self, data={**self.data, "omega": float(omega)})
+        return self._changed(data={**self.data, "omega": float(omega)})
 
     def with_rigid_blades(self) -> Rotor:
         """The same rotor with blades that move about their hinges alone, or not at all where they are clamped."""
         blade = {**self.data["blade"], "rigid": True}
         settings = self.discretisation._replace(n_modes=HINGE_MODES[blade["root"]])
-        return replace(self, data={**self.data, "blade": blade}, discretisation=settings)
+        return self._changed(data={**self.data, "blade": blade}, discretisation=settings)
 
     def with_reference_pitch(self, pitch: float) -> Rotor:
         """The same rotor with the modes of its blades at root pitch `pitch` [rad]."""
-        return replace(self, discretisation=self.discretisation._replace(reference_pitch=float(pitch)))
+        return self._changed(discretisation=self.discretisation._replace(reference_pitch=float(pitch)))
 
     def discretised(self, **given: Any) -> Rotor:
         """The same rotor with other modes, finite elements or quadrature points (`n_modes`, `n_elements`, `n_gauss`)."""
         checked_discretisation({}, given)
-        return replace(self, discretisation=self.discretisation._replace(**given))
+        return self._changed(discretisation=self.discretisation._replace(**given))
 
 
 @checked
@@ -135,19 +155,34 @@ def _of_aircraft(aircraft: Aircraft) -> Rotor:
     data["blade"].setdefault("rigid", False)
     settings = aircraft.discretisation
     weight = aircraft.default("gross_mass") * STANDARD_GRAVITY
-    references, warnings = aircraft.references, aircraft.warnings
-    return Rotor(aircraft.name, aircraft.path, data, settings, references, True, warnings, weight)
+    references, warnings, changes = aircraft.references, aircraft.warnings, aircraft.changes
+    again = partial(_of_varied, aircraft)
+    return Rotor(aircraft.name, aircraft.path, data, settings, references, True, warnings, weight, changes, again)
+
+
+def _of_varied(aircraft: Aircraft, changes: dict[str, Any]) -> Rotor:
+    return _of_aircraft(aircraft.with_(changes))
 
 
 def _of_file(path: Path, allow_outside: bool) -> Rotor:
-    written = groups_of(path, parsed(path))
+    return _read(path, {path.name: read_text(path)}, allow_outside, (), {})
+
+
+def _read(
+    path: Path, texts: dict[str, str], allow_outside: bool, steps: tuple[dict[str, Any], ...], more: dict[str, Any]
+) -> Rotor:
+    """The rotor of a file of which `texts` are known, its own first, with numbers replaced by `steps` and then by `more`."""
+    steps, known_texts = ((*steps, more) if more else steps), dict(texts)
+    read = parsed(path) if not steps else tomllib.loads(texts[path.name])
+    if steps:
+        read = rewritten({**read, "rotor": written_out(read["rotor"])}, texts, steps)
+    written = groups_of(path, read)
     data = dict(written.data)
     if isinstance(data.get("rotor"), dict):
         data["rotor"] = written_out(data["rotor"])
     if isinstance(data.get("sources", {}), dict):
         data["sources"] = {**data.get("sources", {}), "unstated": UNSTATED.model_dump()}
-    texts = {path.name: read_text(path)}
-    spec: RotorFile = validated(path, written._replace(data=data), RotorFile, texts, allow_outside)
+    spec: RotorFile = validated(path, written._replace(data=data), RotorFile, texts, allow_outside, known=known_texts)
     group = spec.rotor
     core = {
         "n_blades": int(group.n_blades),
@@ -165,7 +200,10 @@ def _of_file(path: Path, allow_outside: bool) -> Rotor:
     fixed = spec.discretisation.reference_pitch is not None
     warnings = tuple(f"{path.name}: {text}" for text in _checked(spec, core, path))
     weight = None if spec.condition is None or spec.condition.weight is None else float(spec.condition.weight)
-    return Rotor(spec.name, path, core, _settings(spec, path), tuple(sorted(keys)), fixed, warnings, weight)
+    again = partial(_read, path, texts, allow_outside, steps)
+    changes = {name: value for step in steps for name, value in step.items()}
+    settings, references = _settings(spec, path), tuple(sorted(keys))
+    return Rotor(spec.name, path, core, settings, references, fixed, warnings, weight, changes, again)
 
 
 def _checked(spec: RotorFile, core: dict[str, Any], path: Path) -> list[str]:

@@ -89,6 +89,15 @@ def varied(spec: AircraftFile, path: Path, steps: Sequence[Changes]) -> Aircraft
     return found
 
 
+def rewritten(data: dict[str, Any], texts: Mapping[str, str], steps: Sequence[Changes]) -> dict[str, Any]:
+    """Content of a rotor file, its numbers written out, with numbers replaced, one step after the other."""
+    for step in steps:
+        for name, value in step.items():
+            _replace(data, name, value, texts)
+    data.setdefault("sources", {})[VARIED] = {"text": "given in place of the file's number"}
+    return data
+
+
 def _replace(data: dict[str, Any], name: str, value: Any, texts: Mapping[str, str]) -> None:
     """Put a value in its place."""
     group: Any

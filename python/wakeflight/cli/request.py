@@ -8,7 +8,7 @@ import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol, Self, TypeVar
 
 from ..errors import InputError
 from ..text import slug
@@ -111,8 +111,18 @@ def request(
     return Request(loaded, complete, model, folder, drawing, flown, given.given(), made)
 
 
-def changed(aircraft: Aircraft, typed: Sequence[str] | None) -> Aircraft:
-    """The aircraft with what was typed in place of numbers of its file."""
+class Varied(Protocol):
+    """What has a file whose numbers can be replaced."""
+
+    def with_(self, changes: Any) -> Self:
+        """With some of them replaced."""
+
+
+Loaded = TypeVar("Loaded", bound=Varied)
+
+
+def changed(aircraft: Loaded, typed: Sequence[str] | None) -> Loaded:
+    """The aircraft, or the rotor, with what was typed in place of numbers of its file."""
     changes: dict[str, Any] = {}
     for each in typed or ():
         name, found, value = each.partition("=")

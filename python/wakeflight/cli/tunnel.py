@@ -10,9 +10,9 @@ from typing import Annotated, Any
 import typer
 
 from ..errors import InputError
-from .groups import AircraftName, AllowOutside, Drawing, Group, Run, Wake, offered
+from .groups import AircraftName, AllowOutside, Changes, Drawing, Group, Run, Wake, offered
 from .outcome import folder_made, keeping
-from .request import check_drawing, inflow_from, set_threads, writable
+from .request import changed, check_drawing, inflow_from, set_threads, writable
 
 
 @dataclass(frozen=True)
@@ -80,6 +80,7 @@ def tunnel(
     *,
     setting: Setting,
     allow_outside: AllowOutside = False,
+    changes: Changes = None,
     inflow: Annotated[
         str,
         typer.Option(
@@ -107,7 +108,7 @@ def tunnel(
     from ..results import save
     from ..tunnel import tunnel as solve
 
-    turned = load_rotor(rotor or aircraft, allow_outside)
+    turned = changed(load_rotor(rotor or aircraft, allow_outside), changes)
     solve = keeping(solve, lambda partial: partial.save(folder_made(folder) / "tunnel.nc"))
     model = inflow_from(inflow, wake, on_stand=True)
     arguments = vars(setting) | stand.arguments()

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
@@ -64,8 +64,13 @@ class Block(Controller):
             gains.seconds(f"{self.name}.lag", lag),
             gains.seconds(f"{self.name}.washout", washout),
         )
-        self.limit = gains.authority(f"{self.name}.authority", authority, (10.0,) * 4).tolist()
+        self._limit((10.0,) * 4)
         self._forget()
+
+    def _limit(self, travel: Sequence[float]) -> None:
+        """The authority in inches of sticks with a `travel` (4,) [in]."""
+        limits = gains.authority(f"{self.name}.authority", self.given["authority"], travel).tolist()
+        self.limits = dict(zip(STICKS, limits, strict=True))
 
     def _forget(self) -> None:
         self.t: float | None = None
@@ -73,16 +78,21 @@ class Block(Controller):
         self.begun = 0.0
         self.filters = [Smoothed(*self.constants) for _ in self.sizes]
         self.held: tuple[str, ...] = ()
+        terms = [(self.terms[k], size) for k, size in self.sizes.items()]
+        self.fed = [
+            (term.stick, term.sign * size, term.angle, smooth)
+            for (term, size), smooth in zip(terms, self.filters, strict=True)
+        ]
 
     def reset(self, start: Start) -> None:
         """At rest; the authority in inches of this aircraft."""
-        travel, authority = start.aircraft.stick_travel_in, self.given["authority"]
-        self.limit = gains.authority(f"{self.name}.authority", authority, travel).tolist()
+        self._limit(start.aircraft.stick_travel_in)
         self._forget()
 
     def step(self, t: float, sensors: Sensors, stick: Mapping[str, float]) -> dict[str, float]:
         """Inches by stick."""
-        signals = [self.terms[k].signal(sensors) for k in self.sizes]
+        terms = self.terms
+        signals = [terms[k].signal(sensors) for k in self.sizes]
         if self.t is None:
             self.t = self.begun = t
             self.reference = signals
@@ -90,11 +100,10 @@ class Block(Controller):
         moved = dict.fromkeys(self.outputs, 0.0)
         share = self.share(sensors)
         changes = [signal - rest for signal, rest in zip(signals, self.reference, strict=True)]
-        for (k, size), change, smooth in zip(self.sizes.items(), self.counted(changes), self.filters, strict=True):
-            term = self.terms[k]
-            if term.angle:
+        for (name, size, angle, smooth), change in zip(self.fed, self.counted(changes), strict=True):
+            if angle:
                 change = math.remainder(change, 2.0 * math.pi)
-            moved[term.stick] += term.sign * size * share * smooth.advance(change, dt)
+            moved[name] += size * share * smooth.advance(change, dt)
         return self.within(moved)
 
     def share(self, sensors: Sensors) -> float:
@@ -107,8 +116,8 @@ class Block(Controller):
 
     def within(self, moved: dict[str, float]) -> dict[str, float]:
         """Within the authority; keeps which sticks were held back."""
-        limits = dict(zip(STICKS, self.limit, strict=True))
-        self.held = tuple(name for name, inches in moved.items() if abs(inches) > limits[name])
+        limits = self.limits
+        self.held = tuple([name for name, inches in moved.items() if abs(inches) > limits[name]])
         return {name: min(limits[name], max(-limits[name], inches)) for name, inches in moved.items()}
 
     @property

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import copy
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -46,7 +46,7 @@ class Member:
         declared = self.controller.outputs
         self.outputs = (declared,) if isinstance(declared, str) else tuple(declared)
         self.count = 0
-        self.answer = np.zeros(4)
+        self.answer = [0.0] * 4
 
     def due(self, t: float, begins: bool) -> bool:
         """Whether it is asked at `t`; begins: a coupling step begins there."""
@@ -86,20 +86,22 @@ class Chain:
 
     def __init__(self, made: Augmentation, start: Start):
         self.members = [Member(each, start) for each in made.controllers]
-        self.scale = np.array(made.scale)
-        self.travel = np.asarray(start.aircraft.stick_travel_in)
-        self.limit = gains.authority("control.authority", made.authority, self.travel / self.scale)
+        self.scale = list(made.scale)
+        self.travel = list(start.aircraft.stick_travel_in)
+        own = [travel / scale for travel, scale in zip(self.travel, self.scale, strict=True)]
+        self.limit = gains.authority("control.authority", made.authority, own).tolist()
         self.trim = start.stick_si
+        self.trimmed = self.trim.tolist()
         rigging = start.model.data["rigging"]
         self.servos = None
         if made.actuators is not None:
             offset, matrix = np.asarray(rigging["offset"]), np.asarray(rigging["matrix"])
             self.servos = Moving(made.actuators, offset, matrix, self.trim)  # type: ignore[arg-type]
-        self.series, self.parallel = np.zeros(4), np.zeros(4)
+        self.series, self.parallel = [0.0] * 4, [0.0] * 4
         self.hands = self.pilot = self.reached = self.trim
-        self.seconds = {"sas_saturated": np.zeros(4)}
+        self.seconds = {"sas_saturated": [0.0] * 4}
         if self.servos is not None:
-            self.seconds |= {"actuator_rate_limited": np.zeros(4), "actuator_at_stop": np.zeros(4)}
+            self.seconds |= {"actuator_rate_limited": [0.0] * 4, "actuator_at_stop": [0.0] * 4}
 
     def pieces(self, sticks: StickPath, t0: float, t1: float) -> list[tuple[float, float]]:
         """The interval t0..t1 cut where a stick has a corner and where a controller is asked."""
@@ -117,52 +119,64 @@ class Chain:
         due = [member for member in self.members if member.due(t0, begins)]
         hands = sticks.at(t0)
         if due:
-            about_trim = ((hands - self.trim) / INCH).tolist()
-            stick, sensors = dict(zip(STICKS, about_trim, strict=True)), sense()
+            about_trim = zip(STICKS, hands.tolist(), self.trimmed, strict=True)
+            stick, sensors = {name: (at - rest) / INCH for name, at, rest in about_trim}, sense()
             for member in due:
                 member.ask(t0, sensors, stick)
-        held = self._sum(hands)
-        self.seconds["sas_saturated"] += (t1 - t0) * held
-        offset = INCH * (self.parallel + self.series)
-        self.pilot, self.hands = hands + INCH * self.parallel, sticks.at(t1)
+        self._count("sas_saturated", self._sum(hands), t1 - t0)
+        offset = np.array([INCH * (moved + added) for moved, added in zip(self.parallel, self.series, strict=True)])
+        self.pilot, self.hands = self._moved(hands), sticks.at(t1)
         if self.servos is None:
             self.reached = self.hands + offset
             return Added(sticks, offset, {t0: hands + offset, t1: self.reached})
         before = self.reached
         self.reached, limited, stopped = self.servos.advance(hands + offset, self.hands + offset, t1 - t0)
-        self.seconds["actuator_rate_limited"] += (t1 - t0) * limited
-        self.seconds["actuator_at_stop"] += (t1 - t0) * stopped
+        self._count("actuator_rate_limited", limited, t1 - t0)
+        self._count("actuator_at_stop", stopped, t1 - t0)
         return Ramp(t0, t1, before, self.reached)
 
     def rest(self, sticks: StickPath, t: float) -> StickPath:
         """Sticks that reach the blades at `t`, where the flight ends."""
-        self.pilot = sticks.at(t) + INCH * self.parallel
+        self.pilot = self._moved(sticks.at(t))
         if self.servos is None:
-            return Added(sticks, INCH * (self.parallel + self.series))
+            return Added(sticks, INCH * (np.array(self.parallel) + np.array(self.series)))
         return Ramp(t, t + 1.0, self.reached, self.reached)
 
-    def _sum(self, hands: np.ndarray) -> np.ndarray:
+    def _moved(self, hands: np.ndarray) -> np.ndarray:
+        """Sticks (4,) [m] where the hands have them, as the parallel actuators move them."""
+        moved: np.ndarray = hands + INCH * np.array(self.parallel) if any(self.parallel) else hands
+        return moved
+
+    def _count(self, name: str, held: Sequence[float], seconds: float) -> None:
+        """Seconds more for those that a limit held."""
+        if any(held):
+            spent = self.seconds[name]
+            self.seconds[name] = [before + seconds * each for before, each in zip(spent, held, strict=True)]
+
+    def _sum(self, hands: np.ndarray) -> list[float]:
         """Inches of all in their order, kept in `parallel` and `series`; on which sticks a limit held them (4,)."""
-        shared, own, parallel = np.zeros(4), np.zeros(4), np.zeros(4)
-        held = np.zeros(4)
+        # plain numbers: arrays of four would take three times as long, at every step
+        shared, own, parallel = [0.0] * 4, [0.0] * 4, [0.0] * 4
+        held = [0.0] * 4
         for member in self.members:
             controller = member.controller
-            if controller.acts == "parallel":
-                parallel += member.answer
-            elif controller.own_authority:
-                own += member.answer
-            else:
-                shared += member.answer
+            series = own if controller.own_authority else shared
+            total = parallel if controller.acts == "parallel" else series
+            for k, inches_of in enumerate(member.answer):
+                total[k] += inches_of
             for name in controller.saturated:
                 held[STICKS.index(name)] = 1.0
-        within = np.minimum(np.maximum(shared, -self.limit), self.limit)
-        held[within != shared] = 1.0
-        self.series = self.scale * (within + own)
+        for k, (limit, scale) in enumerate(zip(self.limit, self.scale, strict=True)):
+            within = min(limit, max(-limit, shared[k]))
+            if within != shared[k]:
+                held[k] = 1.0
+            self.series[k] = scale * (within + own[k])
         # a parallel actuator takes the stick no further than its stops; where the hands have it already beyond, no further
-        if parallel.any():
-            at = hands / INCH
-            moved = np.clip(at + self.scale * parallel, np.minimum(at, 0.0), np.maximum(at, self.travel))
-            parallel = np.where(parallel == 0.0, 0.0, moved - at)
+        if any(parallel):
+            for k, at in enumerate((hands / INCH).tolist()):
+                if parallel[k] != 0.0:
+                    low, high = min(at, 0.0), max(at, self.travel[k])
+                    parallel[k] = min(high, max(low, at + self.scale[k] * parallel[k])) - at
         self.parallel = parallel
         return held
 
@@ -182,7 +196,7 @@ class Chain:
     def recall(self, block: bytes) -> None:
         """Go on from what `memory` gave."""
         kept = unpacked(block)
-        self.series, self.parallel, self.seconds = kept["series"], kept["parallel"], kept["seconds"]
+        self.series, self.parallel, self.seconds = list(kept["series"]), list(kept["parallel"]), kept["seconds"]
         self.hands, self.pilot, self.reached = kept["hands"], kept["pilot"], kept["reached"]
         if self.servos is not None:
             self.servos.at = kept["servos"]

@@ -107,7 +107,7 @@ class Controller:
         return called
 
 
-def inches(answer: Any, outputs: tuple[str, ...]) -> np.ndarray:
+def inches(answer: Any, outputs: tuple[str, ...]) -> list[float]:
     """What a controller answered (4,) [in]; ValueError says what is wrong with it."""
     if not isinstance(answer, Mapping):
         raise ValueError(f"step returned {type(answer).__name__}, must be a dict of inches by stick")
@@ -115,7 +115,7 @@ def inches(answer: Any, outputs: tuple[str, ...]) -> np.ndarray:
     for name, value in answer.items():
         if name not in outputs:
             raise ValueError(f"step moved '{name}', allowed are its outputs: {', '.join(outputs)}")
-        if isinstance(value, bool | str | bytes) or not (isinstance(value, float) or np.ndim(value) == 0):
+        if type(value) is not float and (isinstance(value, bool | str | bytes) or np.ndim(value) != 0):
             raise ValueError(f"step returned {name} = {value!r}, must be a number of inches")
         try:
             number = float(value)
@@ -124,4 +124,4 @@ def inches(answer: Any, outputs: tuple[str, ...]) -> np.ndarray:
         if not math.isfinite(number):
             raise ValueError(f"step returned {name} = {number}, must be finite inches")
         found[STICKS.index(name)] = number
-    return np.array(found)
+    return found

@@ -27,29 +27,68 @@ SIGNALS = (
 class Sensors:
     """The flight at one moment, exact, SI and radians; attributes by the names of `SIGNALS`.
 
-    u, v, w [m/s], p, q, r [rad/s]: body axes. roll, pitch, yaw [rad]: 3-2-1 angles. north, east, down [m]: from the start.
-    airspeed [m/s], sideslip [rad], climb_rate [m/s], altitude [m] above sea level, rotor_speed [rad/s].
+    u, v, w over ground [m/s], p, q, r [rad/s]: body axes. roll, pitch, yaw [rad]: 3-2-1 angles. north, east, down [m] from there.
+    airspeed [m/s], sideslip [rad]: through the air; climb_rate [m/s], altitude [m] above sea level, rotor_speed [rad/s].
     ax, ay, az [m/s2]: what accelerometers at the origin of the body axes show, -9.81 along z in level flight; load_factor: -az
     over standard gravity; torque [N m] of the main rotor's shaft. These five cost one solution of the equations of motion, once.
     """
 
-    def __init__(self, y: np.ndarray, ground: float, rotor_speed: float, measure: Measure):
-        self.u, self.v, self.w, self.p, self.q, self.r, *quaternion = y[:10].tolist()
-        self.north, self.east, self.down = y[10:13].tolist()
+    def __init__(
+        self,
+        y: np.ndarray,
+        ground: float,
+        rotor_speed: float,
+        measure: Measure,
+        through_air: tuple[float, float, float] | None = None,
+    ):
         # plain numbers: arrays of one attitude would take five times as long, at every step
-        size = math.sqrt(sum(each * each for each in quaternion))
-        a, b, c, d = (each / size for each in quaternion)
-        self.roll = math.atan2(2 * (a * b + c * d), 1 - 2 * (b * b + c * c))
-        self.pitch = math.asin(min(1.0, max(-1.0, 2 * (a * c - d * b))))
-        self.yaw = math.atan2(2 * (a * d + b * c), 1 - 2 * (c * c + d * d))
-        self.airspeed = math.sqrt(self.u**2 + self.v**2 + self.w**2)
-        self.sideslip = math.atan2(self.v, self.u)
+        seen = y[:13].tolist()
+        self.u, self.v, self.w, self.p, self.q, self.r, a, b, c, d, self.north, self.east, self.down = seen
+        size = math.sqrt(a * a + b * b + c * c + d * d)
+        a, b, c, d = a / size, b / size, c / size, d / size
+        self._quaternion = a, b, c, d
         # z of the earth in body axes
         self._down = (2 * (b * d - a * c), 2 * (c * d + a * b), 1 - 2 * (b * b + c * c))
-        self.climb_rate = -sum(x * z for x, z in zip((self.u, self.v, self.w), self._down, strict=True))
         self.altitude = ground - self.down
         self.rotor_speed = rotor_speed
         self._measure = measure
+        # against the air, where it moves
+        self._through = (self.u, self.v, self.w) if through_air is None else through_air
+
+    @property
+    def roll(self) -> float:
+        """Bank, right side down positive [rad]."""
+        a, b, c, d = self._quaternion
+        return math.atan2(2 * (a * b + c * d), 1 - 2 * (b * b + c * c))
+
+    @property
+    def pitch(self) -> float:
+        """Pitch attitude, nose up positive [rad]."""
+        a, b, c, d = self._quaternion
+        return math.asin(min(1.0, max(-1.0, 2 * (a * c - d * b))))
+
+    @property
+    def yaw(self) -> float:
+        """Heading, nose right positive [rad]."""
+        a, b, c, d = self._quaternion
+        return math.atan2(2 * (a * d + b * c), 1 - 2 * (c * c + d * d))
+
+    @property
+    def airspeed(self) -> float:
+        """Speed through the air [m/s]."""
+        u, v, w = self._through
+        return math.sqrt(u**2 + v**2 + w**2)
+
+    @property
+    def sideslip(self) -> float:
+        """Angle of the velocity through the air out of the plane of symmetry, from the right positive [rad]."""
+        return math.atan2(self._through[1], self._through[0])
+
+    @property
+    def climb_rate(self) -> float:
+        """Speed upward [m/s]."""
+        x, y, z = self._down
+        return float(-(self.u * x + self.v * y + self.w * z))
 
     @cached_property
     def _measured(self) -> tuple[np.ndarray, dict[str, Any]]:

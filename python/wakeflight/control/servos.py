@@ -106,20 +106,23 @@ class Moving:
         """offset [rad], matrix [rad/m] of the rigging; stick (4,) [m from the stop]: where all is at rest."""
         if abs(np.linalg.det(matrix / np.abs(matrix).max())) < 1e-9:
             raise InputError.of("actuators", "servos", "need a rigging whose matrix can be inverted")
-        self.tau, self.rate, self.stops = servos.time_constant, servos.fastest, servos.stops
+        self.tau, self.rate = servos.time_constant, servos.fastest
+        low, high = servos.stops
+        self.stops = list(zip(low.tolist(), high.tolist(), strict=True))
         self.offset, self.matrix, self.back = offset, matrix, np.linalg.inv(matrix)
         self.at = offset + matrix @ stick
 
-    def advance(self, stick0: np.ndarray, stick1: np.ndarray, dt: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def advance(self, stick0: np.ndarray, stick1: np.ndarray, dt: float) -> tuple[np.ndarray, list[bool], list[bool]]:
         """While the commanded sticks [m] go from one place to another: sticks that stand for them; who met rate, stop."""
         u0, u1 = self.offset + self.matrix @ stick0, self.offset + self.matrix @ stick1
         moved = [
             limited_lag(*each, dt, self.tau, self.rate)
             for each in zip(self.at.tolist(), u0.tolist(), u1.tolist(), strict=True)
         ]
-        free, (low, high) = np.array([x for x, _ in moved]), self.stops
-        self.at = np.minimum(np.maximum(free, low), high)
-        return self.stick, np.array([limited for _, limited in moved]), self.at != free
+        free = [x for x, _ in moved]
+        at = [min(high, max(low, x)) for x, (low, high) in zip(free, self.stops, strict=True)]
+        self.at = np.array(at)
+        return self.stick, [limited for _, limited in moved], [x != y for x, y in zip(at, free, strict=True)]
 
     @property
     def stick(self) -> np.ndarray:

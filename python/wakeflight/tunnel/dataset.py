@@ -191,6 +191,7 @@ def attributes(stand: Solved, said: dict[str, str]) -> dict[str, Any]:
         "segment_evaluations": evaluations,
         "configuration": {
             "rotor": m.aircraft.name,
+            **({"varied": dict(m.aircraft.changes)} if m.aircraft.changes else {}),
             "condition": c.as_given,
             "inflow": {"model": m.inflow.name, **m.inflow.as_attributes()},
             "discretisation": m.aircraft.discretisation._asdict(),

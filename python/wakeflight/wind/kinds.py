@@ -32,6 +32,11 @@ class Wind:
         """Whether it is the same at all points."""
         return False
 
+    @property
+    def constant(self) -> np.ndarray | None:
+        """Its velocity (3,) [m/s] where it is the same at all points and at all times; None where it is not."""
+        return None
+
     def __call__(self, points: np.ndarray, t: float) -> np.ndarray:
         """Velocity of the air (n, 3) [m/s] at `points` (n, 3) [m] and time `t` [s], north, east, down."""
         raise NotImplementedError(f"{type(self).__name__} must define __call__(points, t)")
@@ -86,6 +91,11 @@ class SteadyWind(Told):
         """It is."""
         return True
 
+    @property
+    def constant(self) -> np.ndarray:
+        """It is."""
+        return self.velocity
+
     def drift(self) -> np.ndarray:
         """It carries what is carried."""
         return self.velocity
@@ -128,6 +138,11 @@ class Winds(Wind):
         """Whether all are."""
         return all(part.uniform for part in self.parts)
 
+    @property
+    def constant(self) -> np.ndarray | None:
+        """The sum where all are."""
+        return self._drift if all(part.constant is not None for part in self.parts) else None
+
     def drift(self) -> np.ndarray:
         """That of its parts."""
         drift: np.ndarray = self._drift
@@ -135,8 +150,9 @@ class Winds(Wind):
 
     def __call__(self, points: np.ndarray, t: float) -> np.ndarray:
         """The sum."""
-        moved = points - self._drift * t
-        whole: np.ndarray = np.sum([part(moved if part.carried else points, t) for part in self.parts], axis=0)
+        moved, whole = points - self._drift * t, np.zeros(np.shape(points))
+        for part in self.parts:
+            whole += part(moved if part.carried else points, t)
         return whole
 
     def described(self) -> dict[str, Any]:

@@ -16,6 +16,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from .. import _core
 from ..arguments import with_checked_init
 from ..errors import InputError
 from ..units import quantity
@@ -102,9 +103,7 @@ class Turbulence(Told):
 
     def __call__(self, points: np.ndarray, t: float) -> np.ndarray:
         """At points (n, 3)."""
-        waves, sizes, phases = self.modes
-        velocity: np.ndarray = np.cos(points @ waves.T + phases) @ sizes
-        return velocity
+        return _core.fourier_velocity(np.asarray(points, dtype=float), *self.modes)
 
 
 @with_checked_init

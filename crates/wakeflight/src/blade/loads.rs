@@ -318,6 +318,10 @@ impl Blade {
                 let place = carrier.to_hub(m.position);
                 *mean + (*cosine * place.x + *sine * place.y) / self.radius + more[j]
             }
+            BladeInflow::DiskAndEach([mean, sine, cosine], more) => {
+                let place = carrier.to_hub(m.position);
+                *mean + (*cosine * place.x + *sine * place.y) / self.radius + more[j]
+            }
             BladeInflow::Stations(values)
             | BladeInflow::InTime { inflow: PlainInflow::Stations(values), .. } => S::cst(values[j]),
             BladeInflow::Variable(values)

@@ -2,7 +2,8 @@
 //!
 //! A test motion moves the elastic axis of a section by `shift` and turns it by `turn`. By Newton and Euler the section then
 //! carries the momentum m shift + s turn x c and, about its elastic axis, s c x shift + J turn. Modes and turns of the hub
-//! are test motions; their momenta summed over the span are the rows of the mass matrix.
+//! are test motions; their momenta summed over the span are the rows of the mass matrix. So is the turn of the rotor, which the
+//! swashplate makes a pitch of the blade as well.
 
 use super::MAX_MODES;
 use super::hub_motion::{Carrier, HubMotion};
@@ -25,6 +26,17 @@ pub struct BladeMass<S> {
     pub first_moment: Vec3<S, Hub>,
     /// Inertia about the hub centre times each hub axis [kg m2].
     pub inertia: [Vec3<S, Hub>; 3],
+}
+
+/// What the rate of a rotor's speed does to one blade, hub axes about the hub centre: a column of a mass matrix.
+#[derive(Clone, Copy, Debug)]
+pub struct TurnMass<S> {
+    /// Modal forces [m kg^1/2].
+    pub own: [S; MAX_MODES],
+    /// Force on the hub [kg m].
+    pub force: Vec3<S, Hub>,
+    /// Moment about the hub [kg m2].
+    pub moment: Vec3<S, Hub>,
 }
 
 /// Momentum of a section and angular momentum about its elastic axis.
@@ -99,5 +111,36 @@ impl Blade {
             first_moment: carrier.to_hub(first),
             inertia: [carrier.to_hub(inertia[0]), carrier.to_hub(inertia[1]), carrier.to_hub(inertia[2])],
         }
+    }
+
+    /// Modal forces, and force and moment on the hub, by the rate of the speed that turns the blade about the shaft, at azimuth
+    /// `psi` [rad]; `pitched`: acceleration of its pitch by that rate. No branch looks at a value.
+    #[inline(always)]
+    pub fn mass_of_turn<S: Real>(
+        &self,
+        psi: S,
+        modal: &ModalMotion<S>,
+        control: &PitchMotion<S>,
+        pitched: S,
+    ) -> TurnMass<S> {
+        let (n, zero) = (self.n_modes, Vec3::zero());
+        let still: Vec3<S, Hub> = Vec3::zero();
+        let at_rest =
+            HubMotion { velocity: still, acceleration_less_gravity: still, omega: still, omega_dot: still };
+        let carrier = Carrier::new(&at_rest, psi, self.precone, 0.0);
+        let shaft: Vec3<S, BladeAxes> = carrier.to_blade(Vec3::cst([0.0, 0.0, 1.0]));
+        let (mut own, mut force, mut moment) = ([S::zero(); MAX_MODES], zero, zero);
+        for point in &self.structure {
+            let pitch = PitchMotion { theta: control.theta + point.twist, ..*control };
+            let m = point.shapes.motion(n, modal, &pitch);
+            let (linear, angular) = momentum(point, &m, shaft.cross(m.position), shaft + m.t * pitched);
+            force += linear;
+            moment += m.position.cross(linear) + angular;
+            for (i, own) in own.iter_mut().enumerate().take(n) {
+                let (shift, turn) = m.test_motion(&point.shapes, i);
+                *own += linear.dot(shift) + angular.dot(turn);
+            }
+        }
+        TurnMass { own, force: carrier.to_hub(force), moment: carrier.to_hub(moment) }
     }
 }

@@ -3,7 +3,7 @@
 use super::MAX_MODES;
 use super::aerodynamics::StationGeometry;
 use super::error::BladeError;
-use super::hinge::HingeSprings;
+use super::hinge::{HingeSprings, HingeStops};
 use super::kinematics::StationShapes;
 use super::modes::BladeModes;
 use super::quadrature::gauss_points;
@@ -54,6 +54,8 @@ pub struct Blade {
     pub control_stiffness: f64,
     /// Springs at the hinges.
     pub hinge_springs: HingeSprings,
+    /// Stops of the flap and of the lag hinge.
+    pub stops: [Option<HingeStops>; 2],
     /// Structural damping per modal rate, 2 zeta omega; zero on hinge modes [1/s].
     pub damping: [f64; MAX_MODES],
     /// Fixed flap rotation [rad].
@@ -109,6 +111,7 @@ impl Blade {
             root_twist,
             control_stiffness: properties.control_stiffness,
             hinge_springs: HingeSprings { flap: properties.flap_spring, lag: properties.lag_spring },
+            stops: [properties.flap_stops, properties.lag_stops],
             damping,
             precone: properties.precone,
             root_station: properties.root_station,

@@ -1,6 +1,7 @@
 //! Spanwise properties of a blade.
 
 use super::error::BladeError;
+use super::hinge::HingeStops;
 use crate::numerics::tables::Table;
 use serde::Deserialize;
 use std::f64::consts::FRAC_PI_2;
@@ -77,6 +78,12 @@ pub struct BladeProperties {
     /// Spring about the lag hinge, neutral straight out [N m/rad].
     #[serde(default)]
     pub lag_spring: f64,
+    /// Stops of the flap hinge, its angle as the spring counts it.
+    #[serde(default)]
+    pub flap_stops: Option<HingeStops>,
+    /// Stops of the lag hinge, forward positive.
+    #[serde(default)]
+    pub lag_stops: Option<HingeStops>,
     /// Whether the blade keeps its shape: it moves about its hinges alone, or not at all where it is clamped.
     #[serde(default)]
     pub rigid: bool,

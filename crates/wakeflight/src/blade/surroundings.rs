@@ -25,6 +25,8 @@ pub enum BladeInflow<'a, S> {
     Disk([S; 3]),
     /// The same, and one value per station on top of it: what the air does of its own.
     DiskAnd([S; 3], &'a [f64]),
+    /// The same of four blades at once, each with its own.
+    DiskAndEach([S; 3], &'a [S]),
     /// One value per station, held.
     Stations(&'a [f64]),
     /// One value per station, with derivatives.

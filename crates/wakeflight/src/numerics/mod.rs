@@ -1,6 +1,7 @@
 //! Scalars and duals, frames and vectors, tables, small linear systems, wide vectors and their instruction set.
 pub mod elliptic;
 pub mod four;
+pub mod fourier;
 pub mod frames;
 pub mod instruction_set;
 pub mod jacobian;

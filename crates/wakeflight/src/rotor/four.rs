@@ -6,7 +6,7 @@ use crate::blade::aerodynamics::Air;
 use crate::blade::hub_loads::BladeLoads;
 use crate::blade::hub_motion::{Carrier, HubMotion};
 use crate::blade::kinematics::{ModalMotion, PitchMotion};
-use crate::blade::mass_matrix::BladeMass;
+use crate::blade::mass_matrix::{BladeMass, TurnMass};
 use crate::blade::surroundings::{BladeEnvironment, BladeInflow};
 use crate::numerics::four::{Four, FourTask, four_at_once};
 use crate::numerics::frames::{Hub, Vec3};
@@ -24,6 +24,8 @@ enum FourInflow<'a> {
     Without,
     /// lambda_0, lambda_s, lambda_c.
     Disk([f64; 3]),
+    /// The same, and one value per station on top of it, blade by blade.
+    DiskAnd([f64; 3], [&'a [f64]; 4]),
     /// One value per station, blade by blade.
     Stations([&'a [f64]; 4]),
 }
@@ -32,6 +34,12 @@ impl<'a> FourInflow<'a> {
     fn of(inflow: &[BladeInflow<'a, f64>; 4]) -> Self {
         match inflow {
             [BladeInflow::Disk(states), ..] => Self::Disk(*states),
+            [
+                BladeInflow::DiskAnd(states, a),
+                BladeInflow::DiskAnd(_, b),
+                BladeInflow::DiskAnd(_, c),
+                BladeInflow::DiskAnd(_, d),
+            ] if a.len() <= MOST_STATIONS => Self::DiskAnd(*states, [a, b, c, d]),
             [
                 BladeInflow::Stations(a),
                 BladeInflow::Stations(b),
@@ -61,17 +69,20 @@ impl FourTask for FourBlades<'_> {
         let (psi, modal, control) = side_by_side::<S>(self.blades, n);
         let hub = self.hub.constant();
         let mut stations = [S::zero(); MOST_STATIONS];
+        if let FourInflow::Stations([a, b, c, d]) | FourInflow::DiskAnd(_, [a, b, c, d]) = self.inflow {
+            for j in 0..a.len() {
+                stations[j] = S::of([a[j], b[j], c[j], d[j]]);
+            }
+        }
         let inflow = match self.inflow {
             FourInflow::Without => BladeInflow::Vacuum,
             FourInflow::Disk([mean, sine, cosine]) => {
                 BladeInflow::Disk([S::cst(mean), S::cst(sine), S::cst(cosine)])
             }
-            FourInflow::Stations([a, b, c, d]) => {
-                for j in 0..a.len() {
-                    stations[j] = S::of([a[j], b[j], c[j], d[j]]);
-                }
-                BladeInflow::Variable(&stations[..a.len()])
+            FourInflow::DiskAnd([mean, sine, cosine], [a, ..]) => {
+                BladeInflow::DiskAndEach([S::cst(mean), S::cst(sine), S::cst(cosine)], &stations[..a.len()])
             }
+            FourInflow::Stations([a, ..]) => BladeInflow::Variable(&stations[..a.len()]),
         };
         split(&blade.loads(&self.environment, &hub, psi, &modal, &control, &inflow), n)
     }
@@ -178,6 +189,37 @@ impl FourTask for FourMasses<'_> {
     }
 }
 
+/// What the rate of the rotor's speed does to four blades.
+struct FourTurns<'a> {
+    rotor: &'a Rotor,
+    blades: &'a [BladePose; 4],
+    /// Acceleration of each blade's pitch by the rate.
+    pitched: [f64; 4],
+}
+
+impl FourTask for FourTurns<'_> {
+    type Output = [TurnMass<f64>; 4];
+    #[inline(always)]
+    fn run<S: Four>(self) -> Self::Output {
+        let n = self.rotor.blade.n_modes;
+        let (psi, modal, control) = side_by_side::<S>(self.blades, n);
+        let four = self.rotor.blade.mass_of_turn(psi, &modal, &control, S::of(self.pitched));
+        let (force, moment) = (apart(&four.force), apart(&four.moment));
+        let mut turns = [TurnMass { own: [0.0; MAX_MODES], force: force[0], moment: moment[0] }; 4];
+        for i in 0..n {
+            let own = four.own[i].values();
+            for k in 0..4 {
+                turns[k].own[i] = own[k];
+            }
+        }
+        for k in 0..4 {
+            turns[k].force = force[k];
+            turns[k].moment = moment[k];
+        }
+        turns
+    }
+}
+
 impl Rotor {
     /// Loads of four blades with their dampers, each with its inflow: the bits of `blade_loads`.
     pub fn four_blade_loads(
@@ -213,6 +255,16 @@ impl Rotor {
             std::array::from_fn(|k| {
                 let (psi, modal, control) = &task.blades[k];
                 self.blade.mass_matrix(*psi, modal, control)
+            })
+        })
+    }
+
+    /// What the rate of the speed does to four blades, whose pitch it accelerates by `pitched` each.
+    pub fn four_turn_masses(&self, blades: &[BladePose; 4], pitched: [f64; 4]) -> [TurnMass<f64>; 4] {
+        four_at_once(FourTurns { rotor: self, blades, pitched }).unwrap_or_else(|task| {
+            std::array::from_fn(|k| {
+                let (psi, modal, control) = &task.blades[k];
+                self.blade.mass_of_turn(*psi, modal, control, task.pitched[k])
             })
         })
     }

@@ -10,6 +10,7 @@ use crate::airfoil::span::StationAirfoils;
 use crate::blade::MAX_MODES;
 use crate::blade::aerodynamics::{Air, SectionAir};
 use crate::blade::error::BladeError;
+use crate::blade::hinge::HingeStops;
 use crate::blade::hub_loads::BladeLoads;
 use crate::blade::hub_motion::HubMotion;
 use crate::blade::kinematics::{ModalMotion, PitchMotion, combine};
@@ -252,7 +253,7 @@ impl Rotor {
         self.blade.air(self.environment(air), hub, psi, modal, control, inflow)
     }
 
-    /// Virtual work of damper and hinge spring: they act between hub and blade and pass no load on.
+    /// Virtual work of damper, hinge spring and stops: they act between hub and blade and pass no load on.
     #[inline(always)]
     pub(crate) fn add_damper<S: Real>(
         &self,
@@ -260,20 +261,53 @@ impl Rotor {
         control: &PitchMotion<S>,
         work: &mut [S; MAX_MODES],
     ) {
-        let Some(damper) = &self.lag_damper else { return };
         let (blade, n) = (&self.blade, self.blade.n_modes);
-        let m = blade.root.motion(n, modal, control);
-        let pitch = control.theta + combine(&blade.root.theta, &modal.q, n);
-        let pitch_dot = control.theta_dot + combine(&blade.root.theta, &modal.q_dot, n);
-        let (flap, lead) = m.tangent_angles();
-        let (flap_dot, lead_dot) = m.angle_rates();
-        let (force, stroke) = damper.force_and_gradient(lead, flap, pitch, lead_dot, flap_dot, pitch_dot);
-        let spring = damper.spring_moment(lead);
-        for (i, total) in work.iter_mut().enumerate().take(n) {
-            let (flap_i, lead_i) = m.angle_gradient(&blade.root, i);
-            let stroke_i = stroke[0] * lead_i + stroke[1] * flap_i + stroke[2] * blade.root.theta[i];
-            *total += spring * lead_i - force * stroke_i;
+        let stops = blade.stops.iter().any(Option::is_some);
+        if self.lag_damper.is_none() && !stops {
+            return;
         }
+        let m = blade.root.motion(n, modal, control);
+        let (flap, lead) = m.tangent_angles();
+        if let Some(damper) = &self.lag_damper {
+            let pitch = control.theta + combine(&blade.root.theta, &modal.q, n);
+            let pitch_dot = control.theta_dot + combine(&blade.root.theta, &modal.q_dot, n);
+            let (flap_dot, lead_dot) = m.angle_rates();
+            let (force, stroke) = damper.force_and_gradient(lead, flap, pitch, lead_dot, flap_dot, pitch_dot);
+            let spring = damper.spring_moment(lead);
+            for (i, total) in work.iter_mut().enumerate().take(n) {
+                let (flap_i, lead_i) = m.angle_gradient(&blade.root, i);
+                let stroke_i = stroke[0] * lead_i + stroke[1] * flap_i + stroke[2] * blade.root.theta[i];
+                *total += spring * lead_i - force * stroke_i;
+            }
+        }
+        if stops {
+            let [of_flap, of_lag] = &blade.stops;
+            let moment = |stop: &Option<HingeStops>, angle: S| stop.map_or(S::zero(), |s| s.moment(angle));
+            let (up, forward) = (moment(of_flap, flap), moment(of_lag, lead));
+            for (i, total) in work.iter_mut().enumerate().take(n) {
+                let (flap_i, lead_i) = m.angle_gradient(&blade.root, i);
+                *total += up * flap_i + forward * lead_i;
+            }
+        }
+    }
+
+    /// Angles of a blade at its hinges [rad], flap up and lead forward positive.
+    pub fn hinge_angles(&self, modal: &ModalMotion<f64>) -> (f64, f64) {
+        let still = PitchMotion { theta: 0.0, theta_dot: 0.0, theta_ddot: 0.0 };
+        self.blade.root.motion(self.blade.n_modes, modal, &still).tangent_angles()
+    }
+
+    /// Lift, drag and moment coefficients of the tables of the stations, row after row.
+    pub fn section_coefficients(&self, alpha: &[f64], mach: &[f64]) -> [Vec<f64>; 3] {
+        let mut found = [const { Vec::new() }; 3];
+        let n = self.blade.stations.len();
+        for (k, (&alpha, &mach)) in alpha.iter().zip(mach).enumerate() {
+            let (cl, cd, cm) = self.airfoils.at(k % n).coefficients(alpha, mach);
+            for (all, one) in found.iter_mut().zip([cl, cd, cm]) {
+                all.push(one);
+            }
+        }
+        found
     }
 
     /// Derivatives of the damper's virtual work by modal coordinates and rates: (row, column), columns coordinates first.

@@ -72,6 +72,8 @@ pub fn uniform(hold: Root, root: f64, radius: f64, ei_flap: f64, ei_lag: f64) ->
         precone: 0.0,
         flap_spring: 0.0,
         lag_spring: 0.0,
+        flap_stops: None,
+        lag_stops: None,
         rigid: false,
     }
 }
@@ -112,6 +114,8 @@ pub fn uh60a() -> BladeProperties {
         precone: rotor("precone"),
         flap_spring: 0.0,
         lag_spring: 0.0,
+        flap_stops: None,
+        lag_stops: None,
         rigid: false,
     }
 }

@@ -1,10 +1,9 @@
 //! What azimuth and speed, where they are states, add to the derivatives: the lag dampers by the pitch they turn, the blades'
 //! inertia by the rate of the speed, the engines by it.
 
-use super::{BladeSlopes, N_LOADS, Slopes};
+use super::{BladeSlopes, Slopes};
 use crate::blade::MAX_MODES;
 use crate::blade::kinematics::{ModalMotion, PitchMotion};
-use crate::blade::surroundings::BladeInflow;
 use crate::numerics::frames::Vec3;
 use crate::numerics::scalar::{Dual, Real};
 use crate::rotor::speed::{Spin, Turning};
@@ -47,34 +46,40 @@ impl System {
     /// Derivatives by the rate of the speed: loads and modal rows of the blades, whose pitch it accelerates too, and the power.
     pub(super) fn masses_of_turn(&self, at: &Instant<f64>, slopes: &mut Slopes) {
         type D = Dual<1>;
-        let mut first = 0;
+        let mut offset = 0;
         for (r, rotor, l) in self.each_rotor() {
-            let blades = first..first + rotor.n_blades;
-            first = blades.end;
+            let (n, blades) = (rotor.n_blades, offset);
+            offset += n;
             let Some(place) = l.spin() else { continue };
             let column = slopes.place[place.speed];
-            let y: Vec<D> = at.y[self.layout.carrier()].iter().map(|&v| D::cst(v)).collect();
-            let still = vec![D::zero(); y.len()];
             let turning = Turning { omega: D::cst(at.y[place.speed]), omega_dot: D::variable(0.0, 0) };
             let spin = Spin { psi: D::cst(at.y[place.azimuth]), turning };
-            let hub = turning.carried_by(self.hub_motion(r, &y, &still), rotor.omega);
-            for (b, blade) in slopes.blades[blades].iter_mut().enumerate() {
-                let control: PitchMotion<D> = self.blade_pitch(r, at.inputs, (at.t, &spin), b);
-                let modal = self.modal_motion(r, at.y, at.y, b);
-                let modal = ModalMotion {
-                    q: modal.q.map(D::cst),
-                    q_dot: modal.q_dot.map(D::cst),
-                    q_ddot: [D::zero(); MAX_MODES],
-                };
-                let psi = rotor.azimuth(spin.psi, b);
-                // the air feels no acceleration
-                let loads = rotor.undamped_loads(self.air, &hub, psi, &modal, &control, &BladeInflow::Vacuum);
-                for i in 0..blade.n_modes() {
-                    blade.by_shared_dot.set(i, column, loads.modal[i].eps[0]);
-                }
-                let on_hub = [loads.force, loads.moment].map(Vec3::array);
-                for (k, load) in on_hub.as_flattened().iter().enumerate().take(N_LOADS) {
-                    blade.loads_by_shared_dot.set(k, column, load.eps[0]);
+            for first in (0..n).step_by(4) {
+                // fewer than four left: the last stands in for those that are not there
+                let blade = |k: usize| (first + k).min(n - 1);
+                let pitches: [PitchMotion<D>; 4] =
+                    std::array::from_fn(|k| self.blade_pitch(r, at.inputs, (at.t, &spin), blade(k)));
+                let poses = std::array::from_fn(|k| {
+                    let p = &pitches[k];
+                    let control = PitchMotion {
+                        theta: p.theta.re,
+                        theta_dot: p.theta_dot.re,
+                        theta_ddot: p.theta_ddot.re,
+                    };
+                    let modal = self.modal_motion(r, at.y, at.y, blade(k));
+                    (rotor.azimuth(spin.psi.re, blade(k)), modal, control)
+                });
+                let masses = rotor.four_turn_masses(&poses, pitches.map(|p| p.theta_ddot.eps[0]));
+                for (b, mass) in (first..n).zip(&masses) {
+                    let blade = &mut slopes.blades[blades + b];
+                    for i in 0..blade.n_modes() {
+                        blade.by_shared_dot.set(i, column, -mass.own[i]);
+                    }
+                    // the air feels no acceleration
+                    let on_hub = [mass.force, mass.moment].map(Vec3::array);
+                    for (k, load) in on_hub.as_flattened().iter().enumerate() {
+                        blade.loads_by_shared_dot.set(k, column, -load);
+                    }
                 }
             }
             if let (Some(engine), Some(governor)) = (l.engine(), rotor.drive().and_then(|d| d.governor)) {
