@@ -73,7 +73,14 @@ def test_marching_settles_near_the_relaxed_wake_of_the_helicopter(relaxed, schem
 
 
 CARADONNA = Path(__file__).resolve().parents[2] / "validation/rotors/caradonna-tung.toml"
-SHORT_WAKE = {"turns": 2, "far_wake_turns": 0, "azimuth_step": "15 deg", "n_stations": 10, "near_wake_angle": "30 deg"}
+SHORT_WAKE = {
+    "trailers": "tip",
+    "turns": 2,
+    "far_wake_turns": 0,
+    "azimuth_step": "15 deg",
+    "n_stations": 10,
+    "near_wake_angle": "30 deg",
+}
 
 
 @pytest.mark.parametrize("blade_model", ["lifting-line", "weissinger"])

@@ -144,7 +144,7 @@ declare! {
         sweeps: usize = always(2), between(1.0, 100.0);
 
         /// Share of a new far inflow taken in each iteration of inflow and circulation.
-        inflow_relaxation: f64 = always(0.7), between(0.01, 1.0), source(&["ribera2004"]);
+        inflow_relaxation: f64 = by_regime(0.7, 0.35, 0.35), between(0.01, 1.0), source(&["ribera2004"]);
 
         /// Change of inflow over the tip speed at which inflow and circulation agree.
         inflow_tolerance: f64 = always(1e-4), unit("ΩR"), between(1e-12, 0.1),
