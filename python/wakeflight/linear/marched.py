@@ -17,9 +17,9 @@ import numpy as np
 
 from ..errors import NumericalFailure, known
 from ..exchange import Exchange
+from ..flight_start import flight_model
 from ..inflow import trim_model
 from ..model import CompiledRotor, Model
-from ..simulation import flight_model
 from ..trim import Trim
 from ..trim.wake import WakeInTrim
 from .multiblade import columns, transformation
