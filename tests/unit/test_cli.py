@@ -118,7 +118,7 @@ def _nothing_starts(monkeypatch):
         (["linearize", "--order", "small"], "--order"),
         (["linearize", "--inputs", "lateral,rudder"], "rudder"),
         (["linearize", "--linear-wake", "magic"], "wake = 'magic'"),
-        (["linearize", "--inflow", "relaxation", "--linear-wake", "states"], "is not built"),
+        (["linearize", "--inflow", "relaxation", "--linear-wake", "identified"], "is not built"),
         (["linearize", "--method", "guess"], "guess"),
         (["report", "/nowhere/run.nc"], "/nowhere/run.nc"),
         (["export", "/nowhere/run.nc"], "/nowhere/run.nc"),

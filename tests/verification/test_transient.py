@@ -14,7 +14,14 @@ from wakeflight.results import load, save
 from wakeflight.trim.equations import resample
 
 CARADONNA = Path(__file__).resolve().parents[2] / "validation/rotors/caradonna-tung.toml"
-WAKE = {"turns": 2, "far_wake_turns": 0, "azimuth_step": "15 deg", "n_stations": 10, "near_wake_angle": "30 deg"}
+WAKE = {
+    "trailers": "tip",
+    "turns": 2,
+    "far_wake_turns": 0,
+    "azimuth_step": "15 deg",
+    "n_stations": 10,
+    "near_wake_angle": "30 deg",
+}
 
 
 @pytest.fixture(scope="module")
@@ -26,7 +33,7 @@ def climbing():
 def test_blades_marched_in_time_find_the_periodic_motion_of_the_harmonic_balance():
     # elastic blades of the UH-60A in a wind, inflow of mid-step held over each step: two methods, one motion
     given = {"speed": "80 kt", "shaft_angle": "-4 deg", "lateral_cyclic": "2 deg", "longitudinal_cyclic": "-5 deg"}
-    stand = wf.tunnel("uh60a", "14 deg", inflow=wf.RelaxationWake(trailers="tip", **WAKE), **given)
+    stand = wf.tunnel("uh60a", "14 deg", inflow=wf.RelaxationWake(**WAKE), **given)
     core, problem, x = stand.model.core, stand.solution.problem, stand.solution.x
     n = stand.model.steps_per_revolution
     mid = resample(stand.solution.inflow_map, 2 * n)[1::2]
