@@ -3,11 +3,10 @@
 
 `standard` is what the core declares as default: three trailers a blade and what is shed between them for two turns, what is older
 carried on in its mean for two turns in forward flight, four at low speed, six in hover; in axial descent a lone tip vortex
-(docs/numerics/wake-defaults.md). `paper` is what
-the manoeuvres of the paper are flown with (docs/paper.md): one tip vortex, an exchange at every 10 deg, the dynamics on the
-inflow of a revolution with the relaxation wake, ten revolutions at frozen states before the time-marching wake flies; it stays
-what it is where a default moves. `reference` is the finest wake that was found to settle in forward flight and, marched, in
-hover: free trailers all over the span.
+(docs/numerics/wake-defaults.md). `paper` is what the manoeuvres of the paper are flown with (docs/paper.md): one tip vortex, an
+exchange at every 10 deg, the dynamics on the inflow of a revolution with the relaxation wake, ten revolutions at frozen states
+before the time-marching wake flies; it stays what it is where a default moves. `reference` is the finest wake that was found to
+settle in forward flight and, marched, in hover: free trailers all over the span.
 """
 
 from __future__ import annotations

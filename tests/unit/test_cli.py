@@ -119,6 +119,7 @@ def _nothing_starts(monkeypatch):
         (["linearize", "--inputs", "lateral,rudder"], "rudder"),
         (["linearize", "--linear-wake", "magic"], "wake = 'magic'"),
         (["linearize", "--inflow", "relaxation", "--linear-wake", "identified"], "is not built"),
+        (["modes", "--out", "a" * 400], "must be a folder that can be written to: File name too long"),
         (["linearize", "--method", "guess"], "guess"),
         (["report", "/nowhere/run.nc"], "/nowhere/run.nc"),
         (["export", "/nowhere/run.nc"], "/nowhere/run.nc"),

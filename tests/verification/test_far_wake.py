@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """The end of a hovering wake, and blades whose sections meet the air at three quarters of the chord."""
 
+import numpy as np
 import pytest
 
 import wakeflight as wf
@@ -29,6 +30,15 @@ def test_the_lattice_of_a_hovering_wake_depends_little_on_the_turns_of_its_far_w
     first, second = abs(ct[1] / ct[0] - 1), abs(ct[2] / ct[1] - 1)
     assert second < 0.5 * first
     assert second < 1e-2
+
+
+def test_a_helicopter_that_hovers_with_its_sticks_held_stays_in_hover(uh60a):
+    # a far wake that acted at once fed back with the period of the free turns: -Z/W between 0.2 and 1.2 in these two seconds
+    start = wf.trim(uh60a, wf.FlightCondition(speed="0 kt", flight_path="0 deg"), inflow="relaxation")
+    held = wf.Maneuver("held", {"lateral": [(0.0, 0.0), (0.1, 0.0)]}, seconds=2.0)
+    data = wf.fly(start, held, inflow="time-marching", integrator="fixed").data
+    assert np.ptp(data["force_z"].values) < 0.05 * start.condition.weight
+    assert np.ptp(data["inflow_mean"].values) < 0.05 * float(data["inflow_mean"].mean())
 
 
 def test_the_closed_end_is_for_tip_vortices_in_axial_flow():

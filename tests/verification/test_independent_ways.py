@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """Two ways to one number: solvers of the equations of motion, and the two free wakes at their common steady state."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
+from climbing_rotor import CARADONNA, WAKE
 
 import wakeflight as wf
 from wakeflight import _core
@@ -72,27 +71,16 @@ def test_marching_settles_near_the_relaxed_wake_of_the_helicopter(relaxed, schem
     assert abs(model.disk_mean(change)) < drift * mean
 
 
-CARADONNA = Path(__file__).resolve().parents[2] / "validation/rotors/caradonna-tung.toml"
-SHORT_WAKE = {
-    "trailers": "tip",
-    "turns": 2,
-    "far_wake_turns": 0,
-    "azimuth_step": "15 deg",
-    "n_stations": 10,
-    "near_wake_angle": "30 deg",
-}
-
-
 @pytest.mark.parametrize("blade_model", ["lifting-line", "weissinger"])
 def test_relaxed_and_marching_wakes_of_a_climbing_rotor_are_one(blade_model):
     # a climb carries the wake away and is steady for every blade: both solvers end at the same circulation, the central
     # scheme with the same truncation error as relaxation, bdf2 with its own
     given = {"collective": "12 deg", "climb": "15 m/s", "blade_model": blade_model}
-    periodic = wf.RelaxationWake(**SHORT_WAKE, inflow_tolerance=1e-8, max_loops=200)
+    periodic = wf.RelaxationWake(**WAKE, inflow_tolerance=1e-8, max_loops=200)
     relaxed = wf.tunnel(CARADONNA, inflow=periodic, **given)
     crest = relaxed.data.circulation.values.max()
     for scheme, tolerance in (("pcc", 1e-5), ("bdf2", 1e-4)):
-        marched = wf.tunnel(CARADONNA, inflow=wf.TimeMarchingWake(**SHORT_WAKE, scheme=scheme), **given)
+        marched = wf.tunnel(CARADONNA, inflow=wf.TimeMarchingWake(**WAKE, scheme=scheme), **given)
         assert marched.settled
         assert marched.ct == pytest.approx(relaxed.ct, rel=2e-5)
         assert marched.cq == pytest.approx(relaxed.cq, rel=2e-5)
@@ -104,7 +92,7 @@ def test_loads_of_a_marching_weissinger_blade_have_the_circulation_that_the_wake
     # held at both lines of the chord, the inflow gives back the circulation it was found with, blade by blade; the exact
     # Jacobian on such a map is that of differences
     given = {"speed": "60 kt", "blade_model": "weissinger", "revolutions": 2}
-    stand = wf.tunnel("uh60a", "8 deg", inflow=wf.TimeMarchingWake(**SHORT_WAKE), **given)
+    stand = wf.tunnel("uh60a", "8 deg", inflow=wf.TimeMarchingWake(**WAKE), **given)
     march, last = stand.solution.march, stand.solution.revolutions[-1]
     n = len(stand.model.stations)
     assert march.inflow.shape == (stand.model.n_blades, 2 * n)

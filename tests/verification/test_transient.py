@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """A collective that moves on the stand: the blades' own motion in time, thrust that overshoots and comes to rest."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
+from climbing_rotor import CARADONNA, WAKE
 
 import wakeflight as wf
 from wakeflight import _core
@@ -12,16 +11,6 @@ from wakeflight.integrators import FixedIntegrator
 from wakeflight.plotting import tunnel as drawing
 from wakeflight.results import load, save
 from wakeflight.trim.equations import resample
-
-CARADONNA = Path(__file__).resolve().parents[2] / "validation/rotors/caradonna-tung.toml"
-WAKE = {
-    "trailers": "tip",
-    "turns": 2,
-    "far_wake_turns": 0,
-    "azimuth_step": "15 deg",
-    "n_stations": 10,
-    "near_wake_angle": "30 deg",
-}
 
 
 @pytest.fixture(scope="module")

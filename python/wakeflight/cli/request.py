@@ -228,7 +228,13 @@ def set_threads(threads: int | None) -> None:
 
 def writable(folder: Path) -> Path:
     """Refuse a folder for results that cannot be made."""
-    existing = next(each for each in (folder, *folder.absolute().parents) if each.exists())
+    try:
+        existing = next(each for each in (folder, *folder.absolute().parents) if each.exists())
+    except OSError as reason:
+        # a name that no file can have, a folder that must not be looked into
+        raise InputError.of(
+            "--out", str(folder), f"must be a folder that can be written to: {reason.strerror}"
+        ) from None
     if not existing.is_dir() or not os.access(existing, os.W_OK):
         raise InputError.of("--out", str(folder), f"must be a folder that can be written to; {existing} is not")
     return folder

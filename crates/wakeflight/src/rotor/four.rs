@@ -205,18 +205,13 @@ impl FourTask for FourTurns<'_> {
         let (psi, modal, control) = side_by_side::<S>(self.blades, n);
         let four = self.rotor.blade.mass_of_turn(psi, &modal, &control, S::of(self.pitched));
         let (force, moment) = (apart(&four.force), apart(&four.moment));
-        let mut turns = [TurnMass { own: [0.0; MAX_MODES], force: force[0], moment: moment[0] }; 4];
-        for i in 0..n {
-            let own = four.own[i].values();
-            for k in 0..4 {
-                turns[k].own[i] = own[k];
+        let mut own = [[0.0; MAX_MODES]; 4];
+        for (i, each) in four.own.iter().enumerate().take(n) {
+            for (own, value) in own.iter_mut().zip(each.values()) {
+                own[i] = value;
             }
         }
-        for k in 0..4 {
-            turns[k].force = force[k];
-            turns[k].moment = moment[k];
-        }
-        turns
+        std::array::from_fn(|k| TurnMass { own: own[k], force: force[k], moment: moment[k] })
     }
 }
 
