@@ -45,7 +45,7 @@ class InputError(WakeflightError, ValueError):
     def choice(cls, field: str, value: object, names: Iterable[str], more: str = "", file: object = None) -> Self:
         """Error about a field that takes one of `names`, the nearest of them first; more: what else is taken."""
         known = list(names)
-        near = get_close_matches(str(value)[:80].lower(), known, n=1, cutoff=0.6)
+        near = get_close_matches(_shown(value).strip("'").lower(), known, n=1, cutoff=0.6)
         meant = f"did you mean {near[0]}? " if near else ""
         return cls.of(field, value, f"{meant}allowed: {', '.join(known)}{more}", file)
 

@@ -43,9 +43,9 @@ def check_azimuth_step(step: float, n_blades: int | None = None, field: str = "a
     """Refuse an azimuth step [rad] that does not divide the angle between blades (a turn, if unknown)."""
     degrees = math.degrees(step)
     between = 360.0 / (n_blades or 1)
-    allowed = f"must be positive and divide {between:g} deg" + (f" ({n_blades} blades)" if n_blades else "")
-    if not 0.0 < degrees <= 45.0:
-        raise InputError.of(field, f"{degrees:.6g} deg", allowed + ", at most 45 deg")
+    allowed = f"must divide {between:g} deg" + (f" ({n_blades} blades)" if n_blades else "")
+    if not math.radians(0.1) <= step <= math.radians(45.0):
+        raise InputError.of(field, f"{degrees:.6g} deg", allowed + ", from 0.1 to 45 deg")
     if abs(between / degrees - round(between / degrees)) > 1e-9 * between / degrees:
         raise InputError.of(field, f"{degrees:.6g} deg", allowed)
 

@@ -110,7 +110,7 @@ def _vectors(name: str, value: ArrayLike) -> NDArray[np.float64]:
 
 
 def _values(name: str, value: ArrayLike, n_segments: int) -> NDArray[np.float64]:
-    array = _numbers(name, value) if np.size(value) else np.empty(np.shape(value))
+    array = _numbers(name, value)
     if array.shape != (n_segments,):
         raise InputError(f"{name}: shape {array.shape}; allowed is ({n_segments},), one value a segment")
     _check_size(name, array)

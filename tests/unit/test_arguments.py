@@ -62,6 +62,27 @@ def test_values_that_do_not_show_themselves_are_told_by_their_type():
             wf.blade_modes(value)
         assert str(caught.value).isprintable()
         assert len(str(caught.value)) < 300
+        with pytest.raises(wf.InputError, match=rf"^form = '?{shown}"):
+            wf.TimeMarchingWake(form=value)
+
+
+def test_arrays_where_a_word_or_numbers_are_due_are_refused_by_name():
+    rotor = wf.load_aircraft("uh60a")
+    for name in ("flapping", "hub_roll"):
+        with pytest.raises(wf.InputError, match=f"^{name} = "):
+            wf.tunnel(rotor, thrust="70 kN", collective=None, **{name: np.zeros((3, 3))})
+    with pytest.raises(wf.InputError, match=r"^core_radius = \[\[1\], \[2, 3\]\]: allowed is an array of real numbers"):
+        wf.induced_velocity(np.zeros((1, 3)), [np.eye(3)], [1.0, 1.0], [[1], [2, 3]])
+
+
+def test_an_azimuth_step_too_small_to_be_walked_is_refused():
+    for least, right in (("0.1 deg", True), ("0.099 deg", False), ("1e-9 deg", False)):
+        for asked in (wf.DynamicInflow, wf.TimeMarchingWake):
+            if right:
+                assert asked(azimuth_step=least).azimuth_step == pytest.approx(np.deg2rad(0.1))
+            else:
+                with pytest.raises(wf.InputError, match=r"azimuth_step.*between 0.1 deg and 45 deg"):
+                    asked(azimuth_step=least)
 
 
 def test_a_checked_function_keeps_its_signature_and_its_pickle():

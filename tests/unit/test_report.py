@@ -1,5 +1,6 @@
 """The report stands alone: everything a reader needs in one file, nothing fetched, failures not hidden."""
 
+import html
 import re
 
 import numpy as np
@@ -57,6 +58,12 @@ def test_warnings_and_monitors_are_on_the_page(tmp_path):
     page = report.write(run, tmp_path).read_text()
     assert page.count('class="warning"') == 2
     assert "Monitors" in page and f"-1.4 at {float(run.time[-1]):.2f} s" in page
+
+
+@pytest.mark.parametrize("kept", ["{% raw %}", "{" * 9000, '{"speed": "fast"}', '["speed"]'])
+def test_what_is_no_condition_is_shown_as_it_stands(tmp_path, kept):
+    page = report.write(synthetic.run("dynamic", revolutions=2, condition=kept, aircraft="{x"), tmp_path).read_text()
+    assert kept in html.unescape(page) and ">{x<" in page
 
 
 def test_a_failed_run_says_so(tmp_path):

@@ -79,12 +79,12 @@ def _range(label: str, run: xr.Dataset, values: np.ndarray, form: str) -> Row:
 def summary(run: xr.Dataset, units: str = "si") -> list[Row]:
     """Flight, trim and wall clock of one run."""
     attrs = run.attrs
-    rows = [
-        Row(NAMES[name], _text(attrs[name], units)) for name in ("aircraft", "maneuver", "condition") if name in attrs
-    ]
+    rows = [Row(NAMES[name], str(attrs[name])) for name in ("aircraft", "maneuver") if name in attrs]
+    if "condition" in attrs:
+        rows.append(Row(NAMES["condition"], _condition(str(attrs["condition"]), units)))
     if attrs.get("maneuver_adapted"):
-        rows.append(Row(NAMES["maneuver_adapted"], _text(attrs["maneuver_adapted"])))
-    rows.append(Row(NAMES["inflow_model"], _text(attrs.get("inflow_model", "–"))))
+        rows.append(Row(NAMES["maneuver_adapted"], str(attrs["maneuver_adapted"])))
+    rows.append(Row(NAMES["inflow_model"], str(attrs.get("inflow_model", "–"))))
     rows.append(Row("flown", f"{float(run.time[-1]):.2f} s, {revolutions_flown(run):.2f} revolutions"))
     rows.append(Row("finished", "yes" if attrs.get("finished", 1) else "no"))
     for name, label, factor, digits in (
@@ -178,10 +178,13 @@ def trim_table(trim: xr.Dataset) -> list[Row]:
     return rows
 
 
-def _text(value: object, units: str = "si") -> str:
-    """An attribute as a reader wants it: a condition, kept as JSON, in words with its units."""
-    text = str(value)
-    return described(json.loads(text), units) if text.startswith("{") else text
+def _condition(kept: str, units: str) -> str:
+    """The condition, kept as JSON, in words with its units; what somebody else wrote there, as it stands."""
+    try:
+        values = json.loads(kept)
+        return described(values, units) if isinstance(values, dict) else kept
+    except (ValueError, TypeError, RecursionError):
+        return kept
 
 
 def _indented(value: object, depth: int = 0) -> str:

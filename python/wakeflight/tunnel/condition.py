@@ -237,7 +237,7 @@ def _reference_twist(rotor: Rotor, at: Any) -> float:
 def _flapping(rotor: Rotor, flapping: Any) -> tuple[tuple[str, float], ...]:
     if rotor.discretisation.n_modes == 0:
         raise InputError.of("flapping", flapping, "the blades of this rotor do not flap: clamped and rigid")
-    if flapping == "zero":
+    if isinstance(flapping, str) and flapping == "zero":
         values: tuple[float, ...] = (0.0, 0.0)
     elif isinstance(flapping, Sequence) and not isinstance(flapping, str) and len(flapping) == 2:
         values = tuple(within("flapping", each, "rad", -0.5, 0.5, "deg") for each in flapping)
@@ -247,4 +247,4 @@ def _flapping(rotor: Rotor, flapping: Any) -> tuple[tuple[str, float], ...]:
 
 
 def _moment(field: str, value: Any) -> float:
-    return 0.0 if value is None or value == "zero" else quantity(value, "N m", field)
+    return 0.0 if value is None or (isinstance(value, str) and value == "zero") else quantity(value, "N m", field)

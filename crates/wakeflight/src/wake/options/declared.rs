@@ -32,7 +32,7 @@ declare! {
 
         /// Step of azimuth, of wake age and of the coupling; divides the angle between blades.
         azimuth_step: f64 = left_open(deg(10.0), "that of the aircraft's or rotor's file, 10 deg where it gives none"),
-            unit("rad"), above(0.0, deg(45.0)), of(EVERY_MODEL), source(&["ribera2004"]),
+            unit("rad"), between(deg(0.1), deg(45.0)), of(EVERY_MODEL), source(&["ribera2004"]),
             finer_smaller("azimuth-step", Some(2.0));
 
         /// Blade stations, at the middles of elements that narrow towards the tip.
