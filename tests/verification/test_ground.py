@@ -43,6 +43,20 @@ def test_the_wind_of_forward_flight_takes_the_ground_away(rigid):
     assert 0.98 < power[1] / power[0] < 1.0
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("height", [1.0, 1.5, 2.0])
+def test_hover_with_the_marched_wake_needs_the_inflow_that_is_published(uh60a, marched_away, height):
+    near = wf.trim(uh60a, hover(height), inflow="time-marching")
+    published = 1.0 / (0.9926 + 0.0379 * (2.0 / height) ** 2)  # Hayden's fit of flight tests, induced power
+    ratio = near.mean_outputs()["inflow_mean"] / marched_away.mean_outputs()["inflow_mean"]
+    assert ratio == pytest.approx(published, rel=0.05)
+
+
+@pytest.fixture(scope="module")
+def marched_away(uh60a):
+    return wf.trim(uh60a, hover(None), inflow="time-marching")
+
+
 def plane_of(sim):
     """Points of the ground around the rotor (n, 3) [m] and its normal, hub axes."""
     from wakeflight.attitude import body_to_inertial

@@ -27,7 +27,7 @@ HOPELESS = 8
 """Passes without progress after which a trim is given up."""
 DIRECT_REVOLUTIONS = 10
 """Revolutions of a marching wake that are each trimmed on; after them means are."""
-MEANS_END = (16, 22, 28, 34, 49, 64)
+MEANS_END = (16, 22, 28, 34, 49, 64, 90, 128)
 """Revolutions after which the mean of those since the controls last moved is trimmed on."""
 PERIODIC = 3e-4
 """Change of the inflow of a marching wake from turn to turn, over the tip speed, at which it is periodic."""

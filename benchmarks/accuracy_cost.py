@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""What wakes cost and how far their answers are from those of the preset `reference`, in one figure.
+
+    python benchmarks/accuracy_cost.py OUT.json FIGURE.png [NAME ...]
+
+Errors: answers of a clamped rotor to hub moments at 80 kt, mean inflow and -Z/W at two instants of the right step of the roll
+reversal, power of the trim (`right_air.py` has the conditions). Cost: evaluations of the sums in nine
+revolutions of the roll, which no other work on the machine disturbs, and processor seconds on one thread, convergence included.
+"""
+
+import json
+import sys
+import time
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+import numpy as np
+import right_air
+from right_air import INSTANTS, REFERENCE, by_moments, wake
+
+import wakeflight as wf
+from wakeflight import _core
+
+WAKES = {
+    "paper": {"preset": "paper"},
+    "tip vortex and sheet": {"preset": "paper", "inboard_wake": "sheet"},
+    "lattice, 2 trailers": {"n_trailers": 2},
+    "standard": {},
+    "lattice, 5 trailers": {"n_trailers": 5},
+    "lattice, 9 trailers": {"n_trailers": 9},
+    "reference": REFERENCE,
+}
+ANSWERS = {
+    "hub_pitch": "∂λ0/∂C_M, 80 kt",
+    "hub_roll": "∂λ1s/∂C_L, 80 kt",
+    "lambda_0": "λ0 in the roll",
+    "thrust": "-Z/W in the roll (difference)",
+    "power": "power of the trim",
+}
+
+
+def measured(name: str, aircraft: wf.Aircraft) -> dict[str, object]:
+    """Answers and cost of one wake."""
+    start = wf.trim(aircraft, inflow=wake(wf.RelaxationWake, name))
+    begun = time.process_time()
+    marched = wake(wf.TimeMarchingWake, name)
+    data = wf.fly(start, wf.roll_reversal(), inflow=marched, integrator="fixed", revolutions=9).data
+    took = time.process_time() - begun
+    at = lambda values: [float(v) for v in np.interp(INSTANTS, data["time"], values)]  # noqa: E731
+    return {
+        **by_moments(name, 80),
+        "lambda_0": at(data["inflow_mean"]),
+        "thrust": at(-data["force_z"] / start.condition.weight),
+        "power": float(start.mean_outputs()["power"]),
+        "processor": took,
+        "evaluations": float(data.attrs["segment_evaluations"]),
+    }
+
+
+def error(of: dict, reference: dict, answer: str) -> float:
+    """Largest error of an answer, relative; of -Z/W the difference."""
+    mine, true = np.atleast_1d(of[answer]), np.atleast_1d(reference[answer])
+    return float(np.max(np.abs(mine - true) / (1.0 if answer == "thrust" else np.abs(true))))
+
+
+def draw(found: dict[str, dict], path: Path) -> None:
+    """Each answer's error over the cost."""
+    reference = found["reference"]
+    figure, axes = plt.subplots(figsize=(7.2, 4.6), layout="constrained")
+    names = sorted((name for name in found if name != "reference"), key=lambda name: found[name]["evaluations"])
+    cost = [found[name]["evaluations"] for name in names]
+    for (answer, label), marker in zip(ANSWERS.items(), "osD^v", strict=True):
+        axes.loglog(
+            cost, [max(error(found[name], reference, answer), 1e-3) for name in names], marker + "-", label=label
+        )
+    axes.axvline(reference["evaluations"], color="0.5", ls=":")
+    axes.text(reference["evaluations"], 1.2e-3, "reference ", ha="right", color="0.4", fontsize=9)
+    for k, name in enumerate(names):
+        axes.annotate(name, (cost[k], 4.0), rotation=35, fontsize=8, ha="left", va="bottom", annotation_clip=False)
+        axes.axvline(cost[k], color="0.9", lw=0.8, zorder=0)
+    axes.set(
+        xlabel="evaluations of the sums in nine revolutions",
+        ylabel="error against the preset reference",
+        ylim=(1e-3, 4.0),
+    )
+    axes.grid(visible=True, axis="y", alpha=0.3)
+    axes.legend(fontsize=8, frameon=False, loc="lower left")
+    figure.savefig(path, dpi=110)
+
+
+def main(out: str, figure: str, *names: str) -> None:
+    """Measure what is not in the file yet, print the table, draw."""
+    _core.set_threads(1)
+    right_air.WAKES.update(WAKES)
+    path, aircraft = Path(out), wf.load_aircraft("uh60a")
+    found = json.loads(path.read_text()) if path.exists() else {}
+    for name in names or WAKES:
+        if name not in found:
+            found[name] = measured(name, aircraft)
+            path.write_text(json.dumps(found, indent=1) + "\n")
+        print(name, json.dumps(found[name]), flush=True)
+    if "reference" in found:
+        for name in found:
+            errors = [f"{100 * error(found[name], found['reference'], each):.1f}" for each in ANSWERS]
+            print(
+                f"| {name} | {' | '.join(errors)} | {found[name]['evaluations']:.2e} | {found[name]['processor']:.2f} |"
+            )
+        draw(found, Path(figure))
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
