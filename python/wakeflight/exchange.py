@@ -86,6 +86,24 @@ class Exchange:
         step_flown = None if flown is None else (*flown, wind)
         self.core.advance(self.model.core, step, y, (stick[:n], stick_rate[:n]), motion, step_flown)
 
+    @property
+    def wash(self) -> np.ndarray | None:
+        """Air at fuselage, stabilator, fin and tail rotor over the step that begins (4, 3) [m/s], body axes.
+
+        Mean over the last passage of a blade; None where these parts feel tables on the mean inflow.
+        """
+        return self.core.wash(self.model.core)
+
+    @property
+    def wash_of_turn(self) -> np.ndarray | None:
+        """The same of a marching wake, mean over the last revolution."""
+        return self.core.wash(self.model.core, turn=True)
+
+    def washing(self, inputs: _core.Inputs) -> _core.Inputs:
+        """`inputs` with that air."""
+        wash = self.wash
+        return inputs if wash is None else inputs.washed(wash)
+
     def remembering(self, inputs: _core.Inputs, begun: float) -> _core.Inputs:
         """`inputs` of the step that begins at `begun` [s], with what the sections remember there."""
         sections = self.core.sections

@@ -107,6 +107,11 @@ class Inflow:
         """Whether trailers all over the span are free."""
         return False
 
+    @property
+    def washes_airframe(self) -> bool:
+        """Whether the parts of the airframe feel the wake itself."""
+        return False
+
     def __post_init__(self) -> None:
         """Check every option and that they go together; angles become radians."""
         for option in options_of(self.name).values():
@@ -142,6 +147,10 @@ class Inflow:
 
     def above_ground(self) -> Self:
         """This model near the ground."""
+        return self
+
+    def on_stand(self) -> Self:
+        """This model on a stand."""
         return self
 
     def in_double_precision(self) -> Self:
@@ -183,6 +192,8 @@ class FreeWake(Inflow):
     far_wake_turns: int | None
     near_wake_angle: Any
     release_radius: float
+    wash: str
+    fuselage_upwash: str
     update_interval: Any
     precision: str
 
@@ -195,6 +206,20 @@ class FreeWake(Inflow):
     def is_full_span(self) -> bool:
         """Whether trailers all over the span are free."""
         return self.trailers == "full-span"
+
+    @property
+    def washes_airframe(self) -> bool:
+        """Whether the parts of the airframe feel the wake itself."""
+        return self.wash == "wake"
+
+    def on_stand(self) -> Self:
+        """This model on a stand, where there is no airframe."""
+        for name in ("wash", "fuselage_upwash"):
+            option = options_of(self.name)[name]
+            value = getattr(self, name)
+            if value != option.default:
+                raise InputError.of(name, value, f"must be {option.default} on a stand, which has no airframe")
+        return self
 
     @property
     def steps_per_revolution(self) -> int | None:

@@ -67,6 +67,7 @@ def fields_of(sim: Simulation) -> dict[str, tuple[int, ...]]:
         **dict.fromkeys(SCALARS, ()),
         **dict.fromkeys(BLADE_ANGLES, (blades,)),
         **({} if sim.wind is None else {"wind": (3,)}),
+        **({"wash": (4, 3)} if model.inflow.washes_airframe else {}),
         **ControlLog(sim.chain).fields,
     }
 
@@ -133,6 +134,7 @@ class Recorder:
             arrays[name] for name in ("time", "state", "stick", "azimuth")
         )
         self.wind = None if self.wind_told is None else arrays["wind"]
+        self.wash = arrays["wash"] if self.model.inflow.washes_airframe else None
         self.blade = {name: arrays[name] for name in STATION_FIELDS}
         self.loads = {name: arrays[name] for name in LOADS}
         self.scalars = {name: arrays[name] for name in SCALARS}
@@ -156,6 +158,8 @@ class Recorder:
         if self.wind is not None:
             blown = known(at.wind)
             self.wind[k], through_air = blown, passing(y, blown)
+        if self.wash is not None:
+            self.wash[k] = known(self.exchange.wash)
         sample = self.azimuth[k], self.blade["inflow"][k], self.blade["mach"][k]
         check_sample(self.model, t, through_air, stick, *sample)
         for name, values in self.loads.items():
@@ -232,6 +236,8 @@ class Recorder:
             arrays["rotor_speed"] = self.rotor_speed
         if self.wind is not None:
             arrays["wind"] = self.wind[:n]
+        if self.wash is not None:
+            arrays["wash"] = self.wash[:n]
         if model.has_free_speed:
             arrays["torque"] = self.scalars["torque"][:n]
             arrays["power_engine"] = arrays["torque"] * self.rotor_speed

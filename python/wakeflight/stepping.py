@@ -153,4 +153,4 @@ class Stepping:
             inputs = inputs.driven(*self._engine)
         if self._air is not None:
             inputs = inputs.blown(*self._air.acting(held is None))
-        return self.exchange.remembering(inputs, self.t), mean
+        return self.exchange.remembering(self.exchange.washing(inputs), self.t), mean

@@ -79,7 +79,8 @@ impl PySystem {
     pub fn place<'a>(&'a self, hub: &'a HubMotion<f64>, y: &Row) -> PyResult<Place<'a>> {
         let (rotor, ground) = (self.inner.main(), self.inner.ground_plane(self.state("y", y)?));
         let turning = Turning::steady(rotor.omega);
-        Ok(Place { rotor, air: self.inner.air, hub, turning, gust: &[], ground })
+        let airframe = self.inner.airframe_in_wake();
+        Ok(Place { rotor, air: self.inner.air, hub, turning, gust: &[], ground, airframe })
     }
 
     /// Motion of the hub at `y`.

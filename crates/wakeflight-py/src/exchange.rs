@@ -70,6 +70,12 @@ impl PySteadyWake {
         self.0.wake.clone().map(RelaxationWake)
     }
 
+    /// Air at fuselage, stabilator, fin and tail rotor of the airframe of `core` (4, 3) [m/s], body axes, mean over the passage of a
+    /// blade; None where they do not feel the wake.
+    fn wash(&self, core: &PySystem) -> Option<Array> {
+        self.0.wash().map(|wash| vectors(core.inner.washed(&wash).to_vec(), &[]))
+    }
+
     /// Whether the last pass ended at rest.
     #[getter]
     fn converged(&self) -> bool {
@@ -183,6 +189,18 @@ impl PyExchange {
     fn held(&self, step: usize) -> (Option<Array>, f64) {
         let held = self.inner.held(step);
         (held.inflow.map(|values| array(values, &[self.n_blades])), held.mean)
+    }
+
+    /// Air at fuselage, stabilator, fin and tail rotor of the airframe of `core` over the step that begins (4, 3) [m/s], body axes, mean
+    /// over the last passage of a blade, of a marching wake with `turn` over the last revolution; None where they do not feel the
+    /// wake.
+    #[pyo3(signature = (core, turn=false))]
+    fn wash(&self, core: &PySystem, turn: bool) -> Option<Array> {
+        let found = match self.inner.marching() {
+            Some(wake) if turn => wake.wash_of_turn(),
+            _ => self.inner.wash(),
+        };
+        found.map(|wash| vectors(core.inner.washed(&wash).to_vec(), &[]))
     }
 
     /// Memory of sections that remember where the step begins; None where they do not.

@@ -1,7 +1,7 @@
 //! The system: F, its Jacobian, trim equations, what a run records.
 
 use crate::checks::{
-    Array, Named, Room, Row, Table, array, failed, instruction_set, invalid, map, pack, room, sized,
+    Array, Named, Room, Row, Table, array, columns, failed, instruction_set, invalid, map, pack, room, sized,
 };
 use crate::trim::{TrimLayout, TrimProblem};
 use numpy::Ix2;
@@ -22,6 +22,7 @@ use wakeflight::system::carrier::Stand;
 use wakeflight::system::data::AircraftData;
 use wakeflight::system::instant::{Disturbance, EngineInput, Gust, HeldInflow, HeldMemory, Inputs};
 use wakeflight::system::model::{Setting, System};
+use wakeflight::wake::airframe::{AtParts, PARTS};
 
 /// Memory of sections that remember, blade by blade, where a coupling step begins; see `wakeflight.exchange`.
 #[pyclass(frozen)]
@@ -70,6 +71,7 @@ impl PyInputs {
             stick_rate,
             t_start,
             inflow: vec![inflow],
+            wash: None,
             sections: Vec::new(),
             stabilator_incidence,
             engine: EngineInput::default(),
@@ -94,10 +96,22 @@ impl PyInputs {
         Self(Inputs { disturbance, ..self.0.clone() })
     }
 
+    /// The same with the air of the wake at fuselage, stabilator, fin and tail rotor (4, 3) [m/s], body axes, in place of washes.
+    fn washed(&self, wash: Table) -> PyResult<Self> {
+        Ok(Self(Inputs { wash: Some(at_parts(&wash)?), ..self.0.clone() }))
+    }
+
     /// The same with the memory of sections that remember, from the begin of the coupling step at `begun` [s].
     fn remembering(&self, sections: &SectionMemory, begun: f64) -> Self {
         Self(Inputs { sections: vec![HeldMemory { memory: sections.0.clone(), begun }], ..self.0.clone() })
     }
+}
+
+/// Air at the parts of an airframe (4, 3).
+pub(crate) fn at_parts(wash: &Table) -> PyResult<AtParts> {
+    let rows = columns("wash", wash)?;
+    rows.try_into()
+        .map_err(|rows: Vec<[f64; 3]>| invalid(format!("wash: {} parts, {} needed", rows.len(), PARTS.len())))
 }
 
 /// Where a wind is not the same everywhere: at the hub less that at the origin, its rates, rows of inflow by station.

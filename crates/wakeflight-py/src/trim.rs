@@ -1,6 +1,7 @@
 //! Trim: problem and layout, the same for an aircraft and a rotor on a stand.
 
-use crate::checks::{Row, Table, invalid, pack, unpack};
+use crate::checks::{Array, Row, Table, invalid, pack, unpack, vectors};
+use crate::system::at_parts;
 use pyo3::prelude::*;
 use wakeflight::system::model::System;
 use wakeflight::trim::equation::Equation;
@@ -40,7 +41,19 @@ impl TrimProblem {
             n_harmonics,
             n_azimuths,
             inflow,
+            wash: None,
         }))
+    }
+
+    /// The same with the air of the wake at fuselage, stabilator, fin and tail rotor (4, 3) [m/s], body axes, in place of washes.
+    fn washed(&self, wash: Table) -> PyResult<Self> {
+        Ok(Self(Problem { wash: Some(at_parts(&wash)?), ..self.0.clone() }))
+    }
+
+    /// That air (4, 3); None where washes act.
+    #[getter]
+    fn wash(&self) -> Option<Array> {
+        self.0.wash.map(|wash| vectors(wash.to_vec(), &[]))
     }
 
     /// Everything of it, exact.

@@ -66,8 +66,15 @@ impl Relaxed {
         let map = vec![0.03; n * options.n_stations];
         let mut steady = SteadyWake::new(options, RelaxationOptions::default(), false, system.main(), map);
         let turning = Turning::steady(system.main().omega);
-        let place =
-            Place { rotor: system.main(), air: system.air, hub: &hub, turning, gust: &[], ground: None };
+        let place = Place {
+            rotor: system.main(),
+            air: system.air,
+            hub: &hub,
+            turning,
+            gust: &[],
+            ground: None,
+            airframe: None,
+        };
         steady.converge(&place, &blades, 5).unwrap();
         Self { system, options, blades, hub, steady }
     }
@@ -110,6 +117,7 @@ fn the_exchange_adds_nothing_to_the_wake_that_stands_alone() {
         turning: Turning::steady(rotor.omega),
         gust: &[],
         ground: None,
+        airframe: None,
     };
     let start = steady.wake.as_ref().unwrap();
     let marching = || TimeMarchingWake::from_relaxation(start, 0, MarchingOptions::default()).unwrap();

@@ -57,6 +57,7 @@ fn problem(n: usize, collective: f64, cyclic: f64) -> Problem {
         n_harmonics: 0,
         n_azimuths: n,
         inflow: Inflow::Map { inflow: vec![0.0; n * N_STATIONS], mean: 0.0 },
+        wash: None,
     }
 }
 

@@ -12,7 +12,7 @@ import numpy as np
 from .._core import instruction_set
 from .attributes import flat_attributes
 from .errors import ResultsError
-from .schema import ATTRIBUTES, COORDINATES, LOOP, RUN, SCHEMA, TRANSIENT, TRIM, TUNNEL, Variable
+from .schema import ATTRIBUTES, COORDINATES, LOOP, NAMED, RUN, SCHEMA, TRANSIENT, TRIM, TUNNEL, Variable
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -107,8 +107,8 @@ def _coordinates(given: Arrays, sizes: Mapping[str, int], increasing: Sequence[s
     """Coordinate of every dimension in use: given, or counted where counting is what it means."""
     coordinates: dict[str, np.ndarray] = {}
     for dim, n in sizes.items():
-        if dim == "xyz":
-            values = np.array(["x", "y", "z"])
+        if dim in NAMED:
+            values = np.array(NAMED[dim])
         elif dim in given:
             values = given[dim]
         elif dim in ("blade", "trailer", "mode", "harmonic", "snapshot", "revolution"):

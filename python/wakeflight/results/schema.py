@@ -69,6 +69,7 @@ COORDINATES: dict[str, Variable] = {
         Variable("snapshot", ("snapshot",), "1", "wake snapshot number"),
         Variable("trailer", ("trailer",), "1", "free trailer of a blade, from root to tip"),
         Variable("age", ("age",), "rad", "wake age: angle turned by the blade since release"),
+        Variable("part", ("part",), "1", "part of the airframe"),
         Variable("xyz", ("xyz",), "1", "component"),
         Variable("azimuth", ("azimuth",), "rad", "azimuth, 0 over the tail, in the direction of rotation"),
         Variable("psi", ("psi",), "rad", "azimuth of a disk map in a run, where `azimuth` is that of the blades"),
@@ -78,6 +79,9 @@ COORDINATES: dict[str, Variable] = {
         Variable("state", ("state",), "1", "state of an unsteady section"),
     )
 }
+
+NAMED = {"xyz": ("x", "y", "z"), "part": ("fuselage", "stabilator", "fin", "tail rotor")}
+"""Coordinates whose values are words."""
 
 RUN: tuple[Variable, ...] = (
     *_table(
@@ -109,6 +113,7 @@ RUN: tuple[Variable, ...] = (
     ),
     *_table(("time", "xyz"), "hub_force", "hub_moment"),
     *_table(("time", "xyz"), "wind", optional=True),
+    *_table(("time", "part", "xyz"), "wash", optional=True),
     *_table(("time", "blade", "mode"), "modal"),
     *_table(BLADE, "azimuth"),
     *_table(STATION, "inflow", "circulation", "cl", "cl_m2", "alpha", "mach"),
@@ -185,6 +190,7 @@ TRIM: tuple[Variable, ...] = (
     *_table(("xyz",), "velocity_b", "rates_b", optional=True),
     *_table(("mode", "harmonic"), "modal_harmonics", optional=True),
     *_table(DISK, "circulation", "cl", "cl_m2", "alpha", "mach", optional=True),
+    *_table(("part", "xyz"), "wash", optional=True),
 )
 
 TUNNEL: tuple[Variable, ...] = (

@@ -93,6 +93,7 @@ _ROWS = (
     ("ct", "1", "aerodynamic thrust coefficient of the main rotor along z_h, thrust over rho pi R^2 (Omega R)^2"),
     ("inflow_mean", "1", "area mean over the disk of the induced inflow v_i/(Omega R), positive down"),
     ("wind", "m/s", "velocity of the air at the origin of the body: north, east, down"),
+    ("wash", "m/s", "velocity of the wake at a part of the airframe, mean over the last passage of a blade: body axes"),
     ("power_engine", "W", "power of the engines on the rotor's shaft, where its speed is a state"),
     ("rotor_speed", "rad/s", "speed of the main rotor where it changes in the run"),
     ("stabilator", "rad", "stabilator incidence, nose up positive"),

@@ -84,6 +84,8 @@ class AircraftOnWake(TrimOnWake[Model, WakeInTrim]):
             if moved @ last < -0.5 * (last @ last):
                 self.mixing = max(0.5 * self.mixing, 0.25)
         found: np.ndarray = held + self.mixing * (wake.inflow_map - held)
+        now, before = wake.wash, self.wash
+        self.wash = now if now is None or before is None else before + self.mixing * (now - before)
         return found
 
     def hopeless(self, wake: WakeInTrim, history: list[dict[str, float]]) -> bool:
@@ -143,6 +145,8 @@ class Means:
         self.march = Exchange.marching(model, self.wake)
         self.turns: list[tuple[np.ndarray, np.ndarray]] = []
         self.recent: list[tuple[np.ndarray, np.ndarray]] = []
+        self.washes: list[np.ndarray | None] = []
+        self.wash: np.ndarray | None = None
         self.inflow_map: np.ndarray | None = None
         self.mean: np.ndarray | None = None
         self.since, self.change = DIRECT_REVOLUTIONS, np.inf
@@ -157,8 +161,10 @@ class Means:
         """March one revolution: its inflow, later at times the mean of those since the last mean, else None."""
         turns = self.turns
         turns.append(self.march.turn(problem, x))
+        self.washes.append(self.march.wash_of_turn)
         if self.direct:
             self.inflow_map, self.circulation = turns[-1]
+            self.wash = self.washes[-1]
             self.varied = self.rms(turns[-1][0] - turns[-2][0]) if revolution > 1 else np.inf
         elif revolution in MEANS_END:
             # turns at controls that have moved since tell of another motion
@@ -166,6 +172,8 @@ class Means:
                 self.since = max(end for end in (DIRECT_REVOLUTIONS, *MEANS_END) if end < revolution)
             recent = turns[self.since :]
             self.inflow_map, self.circulation = (np.mean([each[k] for each in recent], axis=0) for k in (0, 1))
+            washes = [each for each in self.washes[self.since :] if each is not None]
+            self.wash = np.mean(washes, axis=0) if washes else None
             # a mean of n turns that vary independently is known to their scatter over the root of n
             self.wander = float(np.sqrt(np.mean([self.rms(each[0] - self.inflow_map) ** 2 for each in recent])))
             before, self.uncertainty = self.uncertainty, self.wander / np.sqrt(len(recent))

@@ -53,6 +53,8 @@ def dataset(start: Solved, monitors: tuple[Monitor, ...], said: dict[str, str]) 
         **start.maps(*FIELDS),
         **variables(monitors),
     }
+    if start.problem.wash is not None:
+        arrays["wash"] = start.problem.wash
     if start.history:
         arrays["residual_inflow"] = start.history[-1]["inflow_change"]
     return assemble_trim({name: np.asarray(value) for name, value in arrays.items()}, attributes(start) | said)

@@ -21,8 +21,13 @@ SCALES = {"m": 0.1 * INCH, "rad": np.radians(1.0), "rad/s": np.radians(1.0), "m/
 """A small change of an unknown, by its unit: 0.1 in of stick, 1 deg, 1 deg/s, 1 m/s, 1e-3 of inflow."""
 
 
-def trim_problem(model: CompiledRotor, inflow_map: np.ndarray | None) -> _core.TrimProblem:
-    """The equations of what is asked of the model, on a held inflow map (n_azimuths, n_stations) or with dynamic inflow."""
+def trim_problem(
+    model: CompiledRotor, inflow_map: np.ndarray | None, wash: np.ndarray | None = None
+) -> _core.TrimProblem:
+    """The equations of what is asked of the model, on a held inflow map (n_azimuths, n_stations) or with dynamic inflow.
+
+    wash: air of the wake at the parts of the airframe (4, 3) [m/s], body axes, in place of washes on the mean inflow.
+    """
     n_azimuths = model.steps_per_revolution if inflow_map is None else inflow_map.shape[0]
     # the inflow of thin sections is twice as wide, that of the stations first
     mean = 0.0 if inflow_map is None else model.disk_mean(inflow_map[:, : model.stations.size])
@@ -31,7 +36,9 @@ def trim_problem(model: CompiledRotor, inflow_map: np.ndarray | None) -> _core.T
     if inflow_map is not None and fine > n_azimuths:
         inflow_map = resample(inflow_map, fine)
     asked = model.question
-    return _core.TrimProblem(asked.path, asked.free, asked.equations, model.n_harmonics, fine, inflow_map, mean)
+    given = (asked.path, asked.free, asked.equations, model.n_harmonics, fine, inflow_map, mean)
+    problem = _core.TrimProblem(*given)
+    return problem if wash is None else problem.washed(wash)
 
 
 def resample(inflow_map: np.ndarray, n: int) -> np.ndarray:

@@ -92,6 +92,10 @@ class Turns(Protocol[Found]):
     def turn(self, revolution: int, problem: _core.TrimProblem, x: np.ndarray) -> np.ndarray | None:
         """March one revolution at the motion of `x`: the inflow to be trimmed on, None to go on without."""
 
+    @property
+    def wash(self) -> np.ndarray | None:
+        """Air at the parts of the airframe that goes with that inflow (4, 3) [m/s]; None where they do not feel the wake."""
+
     def diverged(self, revolution: int, reason: ArithmeticError) -> NumericalFailure:
         """What is said of a wake that leaves the numbers."""
 
@@ -116,6 +120,8 @@ class TrimOnWake(ABC, Generic[Rotor, Wake]):
         self.model, self.progress = model, progress
         self.tolerance = tolerance
         """Change [rad] between trims at which the rotor rests."""
+        self.wash: np.ndarray | None = None
+        """Air of the wake at the parts of the airframe (4, 3) [m/s], body axes; None where they do not feel it, or not yet."""
 
     @abstractmethod
     def none_found(self, problem: _core.TrimProblem, x: np.ndarray, inflow_map: np.ndarray | None) -> str:
@@ -149,12 +155,12 @@ class TrimOnWake(ABC, Generic[Rotor, Wake]):
         before: the map that `x` is a trim on; where Newton's method finds none at once, the map is changed piece by piece.
         """
         model, work = self.model, Work(BUDGET)
-        problem = trim_problem(model, inflow_map)
+        problem = trim_problem(model, inflow_map, self.wash)
         attempt = newton(model, problem, x, work)
         share, advance = 0.0, 0.5
         while not attempt.met and before is not None and work.left > 0 and advance >= LEAST_ADVANCE:
             part = min(1.0, share + advance)
-            partly = trim_problem(model, before + part * (inflow_map - before))
+            partly = trim_problem(model, before + part * (inflow_map - before), self.wash)
             piece = newton(model, partly, x, work, FOLLOWED)
             if piece.met:
                 share, x, advance = part, piece.x, 1.5 * advance
@@ -204,7 +210,7 @@ class TrimOnWake(ABC, Generic[Rotor, Wake]):
                 raise turns.diverged(revolution, reason) from reason
             if inflow_map is None:
                 continue
-            last = x
+            last, self.wash = x, turns.wash
             problem, x = self.solve(inflow_map, last, held)
             held = inflow_map
             change = float(np.max(np.abs(self.moved(problem, last, x))))

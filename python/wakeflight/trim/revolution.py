@@ -26,6 +26,8 @@ def inputs(
         held = inflow_map[rows_of(model, n, round(model.omega * t / (2 * np.pi) * n))]
         mean = model.disk_mean(inflow_map)
     acting = _core.Inputs(x[:4], np.zeros(4), 0.0, held, mean, model.core.trim_stabilator(problem, x))
+    if problem.wash is not None:
+        acting = acting.washed(problem.wash)
     sections = model.core.trim_sections(problem, x, t)
     return acting if sections is None else acting.remembering(sections, t)
 

@@ -71,6 +71,11 @@ class WakeInTrim:
         return self.core.inflow
 
     @property
+    def wash(self) -> np.ndarray | None:
+        """Air at the parts of the airframe (4, 3) [m/s], body axes, mean over a blade's passage; None where washes act."""
+        return self.core.wash(self.model.core)
+
+    @property
     def relaxation(self) -> _core.RelaxationWake:
         """A copy of the wake."""
         return known(self.core.relaxation)

@@ -63,7 +63,7 @@ class StandModel(CompiledRotor):
 
         Options of the wake that depend on the regime take the numbers of the condition's.
         """
-        inflow = inflow.resolved(condition.regime(rotor.omega * rotor.radius))
+        inflow = inflow.on_stand().resolved(condition.regime(rotor.omega * rotor.radius))
         inflow.step(rotor)
         air = (condition.density, condition.speed_of_sound)
         resolved = resolution(rotor.discretisation, inflow.n_stations)

@@ -185,6 +185,8 @@ class Revolutions:
     that the unsteadiness of an axial wake is not taken for a change of condition. Ends early where the wake is periodic.
     """
 
+    wash = None
+
     def __init__(self, model: StandModel, start: Solution, revolutions: int | None, averaged: int | None):
         usual, means = REVOLUTIONS[model.condition.regime(model.tip_speed)]
         self.longest = revolutions or max(usual, (averaged or 0) + 2)

@@ -1,13 +1,14 @@
 //! Air loads of the whole airframe on the body origin, with rotor wash and tail interference.
 
 use super::fuselage::Fuselage;
-use super::interference::{FuselageWash, Interference};
+use super::interference::{FuselageWash, Interference, RotorWash};
 use super::mass::{AirframeMass, BladesAtHub, MassError, MassProperties};
 use super::tail::{StabilatorSchedule, Surface};
 use super::tail_rotor::{ClosedFormState, TailRotor};
 use crate::numerics::frames::{Body, Hub, Vec3};
 use crate::numerics::scalar::Real;
 use crate::rotor::sense::Sense;
+use crate::wake::AtParts;
 
 /// Density at sea level of the standard atmosphere [kg/m3].
 const SEA_LEVEL_DENSITY: f64 = 1.225;
@@ -50,6 +51,8 @@ pub struct RotorEffect<S: Copy> {
     pub beta_1c: S,
     /// Nominal tip speed [m/s].
     pub tip_speed: f64,
+    /// Air of its wake at the parts [m/s], body axes, in place of the washes; none where these act.
+    pub wake: Option<AtParts>,
 }
 
 /// Motion of the airframe through the air, body axes.
@@ -151,11 +154,15 @@ impl Airframe {
         let mut total = AirLoads::none(0);
         total.closed_inflow_rate.reserve(closed.len());
         let swing = |position: [f64; 3]| rates.cross(Vec3::cst(position));
-        let wash = self.interference.as_ref().map(|i| {
-            let mu = rotor.hub_velocity.scaled(1.0 / rotor.tip_speed);
-            // hub axes: x aft and z up; the wash maps count forward speed and speed along the shaft downward
-            i.rotor_wash(rotor.mean_inflow, -mu.x, -mu.z, rotor.beta_1c, rotor.tip_speed)
-        });
+        let of_wake = rotor.wake.as_ref().map(|air| RotorWash::of_wake(air, self.hand));
+        let by_tables = || {
+            self.interference.as_ref().map(|i| {
+                let mu = rotor.hub_velocity.scaled(1.0 / rotor.tip_speed);
+                // hub axes: x aft and z up; the wash maps count forward speed and speed along the shaft downward
+                i.rotor_wash(rotor.mean_inflow, -mu.x, -mu.z, rotor.beta_1c, rotor.tip_speed)
+            })
+        };
+        let wash = of_wake.or_else(by_tables);
 
         let mut fuselage_wash = FuselageWash::none();
         if let Some(fuselage) = &self.fuselage {
@@ -185,7 +192,10 @@ impl Airframe {
             total.add(fin.position, fin.fin_force(local, density));
         }
         for (tail_rotor, state) in closed {
-            let local = fuselage_wash.at_tail_rotor(velocity) + swing(tail_rotor.position);
+            let mut local = fuselage_wash.at_tail_rotor(velocity) + swing(tail_rotor.position);
+            if let Some(w) = wash.as_ref().and_then(|w| w.tail_rotor) {
+                local += w;
+            }
             let loads = tail_rotor.evaluate(local, state, density, velocity.x);
             total.add(tail_rotor.position, loads.force);
             total.closed_power += loads.power;

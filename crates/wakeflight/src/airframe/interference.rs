@@ -3,6 +3,8 @@
 use crate::numerics::frames::{Body, Vec3};
 use crate::numerics::scalar::Real;
 use crate::numerics::tables::{Grid, Table};
+use crate::rotor::sense::Sense;
+use crate::wake::AtParts;
 use serde::Deserialize;
 
 /// Interference by tables or by constant factors.
@@ -46,6 +48,8 @@ pub struct RotorWash<S: Copy> {
     pub stabilator: Vec3<S, Body>,
     /// At the fin.
     pub fin: Vec3<S, Body>,
+    /// At the tail rotor; tables have none.
+    pub tail_rotor: Option<Vec3<S, Body>>,
 }
 
 /// What the fuselage does to the flow at the tail.
@@ -85,10 +89,12 @@ impl Interference {
                     Vec3::new(induced * ekx.at(chi, -beta_1c), S::zero(), -induced * ekz.at(chi, -beta_1c))
                 };
                 let tail = wash(ekx_tail, ekz_tail);
-                RotorWash { fuselage: wash(ekx_fuselage, ekz_fuselage), stabilator: tail, fin: tail }
+                let fuselage = wash(ekx_fuselage, ekz_fuselage);
+                RotorWash { fuselage, stabilator: tail, fin: tail, tail_rotor: None }
             }
             Self::Factors { fuselage, stabilator } => {
-                RotorWash { fuselage: down(*fuselage), stabilator: down(*stabilator), fin: Vec3::zero() }
+                let (fuselage, stabilator) = (down(*fuselage), down(*stabilator));
+                RotorWash { fuselage, stabilator, fin: Vec3::zero(), tail_rotor: None }
             }
         }
     }
@@ -104,6 +110,14 @@ impl Interference {
             },
             Self::Factors { .. } => FuselageWash::none(),
         }
+    }
+}
+
+impl<S: Real> RotorWash<S> {
+    /// The air of the wake itself at the parts [m/s], body axes of the airframe's hand: held, without derivatives.
+    pub fn of_wake(air: &AtParts, hand: Sense) -> Self {
+        let [fuselage, stabilator, fin, tail_rotor] = air.map(|v| -hand.polar(Vec3::cst(v)));
+        Self { fuselage, stabilator, fin, tail_rotor: Some(tail_rotor) }
     }
 }
 

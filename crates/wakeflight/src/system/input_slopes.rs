@@ -68,6 +68,7 @@ fn constant(inputs: &Inputs, n_rotors: usize) -> Inputs<D> {
         stick_rate: inputs.stick_rate.map(D::cst),
         t_start: inputs.t_start,
         inflow: inflow.collect(),
+        wash: inputs.wash,
         sections: inputs.sections.clone(),
         stabilator_incidence: D::cst(inputs.stabilator_incidence),
         engine: EngineInput { torque: D::cst(inputs.engine.torque), fuel: D::cst(inputs.engine.fuel) },

@@ -6,6 +6,7 @@ use crate::blade::memory_rows::MemoryRows;
 use crate::blade::surroundings::BladeInflow;
 use crate::numerics::scalar::{Dual, Real};
 use crate::rotor::hub::Rotor;
+use crate::wake::AtParts;
 use serde::{Deserialize, Serialize};
 
 /// A number of what acts, in equations over the scalar `S`.
@@ -113,6 +114,9 @@ pub struct Inputs<U = f64> {
     pub t_start: f64,
     /// Inflow of every rotor with blades, in the order of the list.
     pub inflow: Vec<HeldInflow<U>>,
+    /// Air of the wake at the parts of the airframe [m/s], body axes, held over the step; none where washes act on the mean inflow. No
+    /// derivatives are taken by it.
+    pub wash: Option<AtParts>,
     /// Memory of the sections of every rotor, in the order of the list; those that remember cannot do without.
     pub sections: Vec<HeldMemory>,
     /// Stabilator incidence [rad].

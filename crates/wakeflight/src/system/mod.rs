@@ -14,3 +14,4 @@ pub mod residual;
 pub mod rotor_loads;
 pub mod slopes;
 pub mod trim;
+pub mod washed;

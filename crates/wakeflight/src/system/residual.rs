@@ -9,6 +9,7 @@ use crate::airframe::assembly::{AirLoads, AirMotion, Airframe, RotorEffect};
 use crate::airframe::tail_rotor::ClosedFormState;
 use crate::numerics::frames::{Body, Vec3, rot_ib};
 use crate::numerics::scalar::Real;
+use crate::wake::AtParts;
 
 /// All loads on the airframe except its own weight and inertia, body axes about the body origin.
 #[derive(Clone, Debug)]
@@ -28,6 +29,8 @@ pub struct AirframeLoads<S> {
 pub struct Settings<'a, S> {
     /// Mean inflow that the airframe feels.
     pub mean_inflow: S,
+    /// Air of the wake at the parts of the airframe [m/s], body axes; none where washes act on the mean inflow.
+    pub wash: Option<AtParts>,
     /// Stabilator incidence [rad].
     pub stabilator_incidence: S,
     /// Pitch of the closed-form rotors by the controls [rad].
@@ -95,6 +98,7 @@ impl System {
         let pitch = self.main().rigging.pitch(at.inputs.stick_at(at.t).map(Acting::felt));
         let settings = Settings {
             mean_inflow: self.mean_inflow(0, at.y, at.inputs),
+            wash: at.inputs.wash,
             stabilator_incidence: at.inputs.stabilator_incidence.felt(),
             closed_pitch: pitch[3],
             closed_inflow: &at.y[self.layout.closed_inflow()],
@@ -127,6 +131,7 @@ impl System {
             hub_velocity: rotor.rot_hb::<S>() * (velocity + rates.cross(Vec3::cst(rotor.position))),
             beta_1c: shares[0].beta_1c,
             tip_speed: rotor.tip_speed(),
+            wake: settings.wash,
         };
         let motion = AirMotion { velocity, rates, density: self.air.density };
         let closed = self.closed.iter().zip(settings.closed_inflow);

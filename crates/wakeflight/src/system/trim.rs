@@ -109,6 +109,7 @@ impl Host for System {
         share.loads.add(rotor.loads);
         let settings = Settings {
             mean_inflow: rotor.inflow,
+            wash: rotor.wash,
             stabilator_incidence: self.trim_stabilator(head, y),
             closed_pitch: self.pitch(head.controls)[3],
             closed_inflow: &vec![head.tail_inflow; self.closed.len()],
@@ -182,6 +183,7 @@ impl Trim<'_, System> {
             stick_rate: [0.0; 4],
             t_start: 0.0,
             inflow: vec![inflow],
+            wash: self.wash(),
             sections: Vec::new(),
             stabilator_incidence: self.host().trim_stabilator(&head, &y),
             engine: EngineInput::default(),

@@ -9,6 +9,7 @@ use crate::inflow::pitt_peters::PittPeters;
 use crate::numerics::frames::{Body, Vec3};
 use crate::numerics::scalar::Real;
 use crate::rotor::hub::Rotor;
+use crate::wake::AtParts;
 
 /// Unknowns at the head of the list, and what of the path is given.
 #[derive(Clone, Copy, Debug)]
@@ -47,6 +48,8 @@ pub struct RotorMean<'a, S> {
     pub beta_1c: S,
     /// Mean inflow.
     pub inflow: S,
+    /// Air of the wake at the parts of the airframe [m/s], body axes; none where washes act on the mean inflow.
+    pub wash: Option<AtParts>,
 }
 
 /// What is missing to the balances of an airframe.

@@ -2,6 +2,7 @@
 
 use super::equation::Equation;
 use super::path::{Path, PathUnknown};
+use crate::wake::AtParts;
 use serde::{Deserialize, Serialize};
 
 /// Inflow in trim.
@@ -33,6 +34,8 @@ pub struct Problem {
     pub n_azimuths: usize,
     /// Inflow.
     pub inflow: Inflow,
+    /// Air of the wake at the parts of the airframe [m/s], body axes; none where washes act on the mean inflow.
+    pub wash: Option<AtParts>,
 }
 
 impl Problem {

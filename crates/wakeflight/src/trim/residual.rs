@@ -13,6 +13,7 @@ use crate::inflow::pitt_peters::DiskCondition;
 use crate::numerics::scalar::Real;
 use crate::rotor::circulation::BladeInstant;
 use crate::rotor::periodic::{BladeGiven, Revolution};
+use crate::wake::AtParts;
 use std::f64::consts::{PI, TAU};
 
 /// A problem on a host.
@@ -113,6 +114,11 @@ impl<'a, H: Host> Trim<'a, H> {
         (self.host.blade_pitch(pitch, psi), self.inflow(head, l).remembering(sections))
     }
 
+    /// Air of the wake at the parts of the airframe, where it is given.
+    pub fn wash(&self) -> Option<AtParts> {
+        self.problem.wash
+    }
+
     /// Inflow at azimuth `l`.
     pub(super) fn inflow<S: Real>(&self, head: &Head<S>, l: usize) -> BladeInflow<'a, S> {
         match &self.problem.inflow {
@@ -166,7 +172,7 @@ impl<'a, H: Host> Trim<'a, H> {
             Inflow::Dynamic => head.inflow[0],
             Inflow::Map { mean, .. } => S::cst(*mean),
         };
-        let share = RotorMean { loads: mean, beta_1c: beta(1), inflow };
+        let share = RotorMean { loads: mean, beta_1c: beta(1), inflow, wash: self.problem.wash };
         let balances = self.host.balances(head, carried, &share);
         let pitch = self.host.pitch(head.controls);
         let radius = rotor.blade.radius;

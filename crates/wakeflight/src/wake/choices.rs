@@ -147,6 +147,26 @@ choices! {
 }
 
 choices! {
+    /// What the parts of the airframe feel of the rotor.
+    pub enum Wash {
+        /// The tables or factors of the aircraft, on the mean inflow.
+        Tables = "tables",
+        /// The velocity of the wake itself, mean over a blade passage and over points of each part.
+        Wake = "wake",
+    }
+}
+
+choices! {
+    /// What the blades feel of the fuselage.
+    pub enum FuselageUpwash {
+        /// Nothing.
+        None = "none",
+        /// Potential flow about a spheroid at its reference point, one rotor radius long and 0.3 thick.
+        Spheroid = "spheroid",
+    }
+}
+
+choices! {
     /// Distance that enters the core factor of a segment.
     pub enum CoreDistance {
         /// To the infinite line through the segment.

@@ -2,6 +2,7 @@
 //!
 //! Everything that crosses the border is SI, in the hub frame `_h` (x aft, y right, z up, non-rotating, origin at the hub).
 
+pub mod airframe;
 pub mod choices;
 pub mod circulation;
 mod continuation;
@@ -24,6 +25,7 @@ pub mod options;
 pub mod relaxation;
 mod sink;
 mod sources;
+mod spheroid;
 pub mod stencils;
 pub mod time_marching;
 pub mod tip_strength;
@@ -31,9 +33,10 @@ pub mod trailers;
 mod vectors;
 pub mod velocity_field;
 
+pub use airframe::{AirframeInWake, AtParts};
 pub use choices::{
-    CoreDistance, Evaluation, FarWake, Form, InboardWake, Precision, Predictor, Scheme, ShedWake, Summation,
-    TipStrength, Trailers,
+    CoreDistance, Evaluation, FarWake, Form, FuselageUpwash, InboardWake, Precision, Predictor, Scheme,
+    ShedWake, Summation, TipStrength, Trailers, Wash,
 };
 pub use circulation::{CirculationSolution, Route, solve_circulation};
 pub use error::WakeError;
@@ -43,5 +46,6 @@ pub use motion::{BladeState, HubMotion};
 pub use near_wake::near_wake_matrix;
 pub use options::{MarchingOptions, RelaxationOptions, WakeOptions, WakeRotor};
 pub use relaxation::{Norms, RelaxationWake, tip_rows};
+pub use spheroid::Spheroid;
 pub use time_marching::{StepReport, TimeMarchingWake};
 pub use velocity_field::{InducedVelocity, Induction, LinearField, Prescribed, VortexSegments};

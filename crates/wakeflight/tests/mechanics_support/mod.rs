@@ -284,6 +284,7 @@ pub fn inputs(stick: [f64; 4], inflow: HeldInflow) -> Inputs {
         stick_rate: [0.0; 4],
         t_start: 0.0,
         inflow: vec![inflow],
+        wash: None,
         sections: Vec::new(),
         stabilator_incidence: 0.1,
         engine: EngineInput::default(),

@@ -9,9 +9,11 @@ use crate::inflow::disk::{DiskMean, LiftingDisk};
 use crate::rotor::circulation::{BladeInTime, BladeInstant, NearWake};
 use crate::rotor::hub::Rotor;
 use crate::vortex::threads::share;
+use crate::wake::airframe::mean_at_parts;
 use crate::wake::miss_distance::miss_distance_in_cores;
 use crate::wake::{
-    BladeState, CirculationSolution, HubMotion as WakeHub, InboardWake, Route, TimeMarchingWake, WakeError,
+    AtParts, BladeState, CirculationSolution, HubMotion as WakeHub, InboardWake, Route, TimeMarchingWake,
+    WakeError,
 };
 use serde::{Deserialize, Serialize};
 
@@ -70,6 +72,9 @@ pub struct MarchingExchange {
     /// Inflow and circulation at the latest passage of every azimuth (n_azimuths, ...).
     passages: Vec<f64>,
     passed_circulation: Vec<f64>,
+    /// Air at the parts of the airframe after each step of the last revolution [m/s, `_h`], by the number of the step; empty where they do
+    /// not feel the wake.
+    at_parts: Vec<AtParts>,
     /// The map that is held, where one is, and the steps that it is held for.
     held_map: Vec<f64>,
     hold: Option<usize>,
@@ -110,6 +115,7 @@ impl MarchingExchange {
             area: rotor.disk_mean(),
             passages: start.inflow.clone(),
             passed_circulation: start.circulation.clone(),
+            at_parts: start.at_parts.repeat(rotor.n_blades),
             held_map: start.inflow.clone(),
             elapsed: 0.0,
             blades: Vec::new(),
@@ -155,11 +161,11 @@ impl MarchingExchange {
         self.place(at.rotor, blades, &at.near_hub())?;
         let mut followed = self.solve(at, true)?;
         let step = self.wake.step(hub, &self.states, &self.circulation)?;
-        self.renew_far(self.wake.own().recorrect == 0);
+        self.renew_far(at, self.wake.own().recorrect == 0);
         followed += self.solve(at, false)?;
         for pass in 0..self.wake.own().recorrect {
             self.wake.set_circulation(&self.circulation)?;
-            self.find_far(pass + 1 == self.wake.own().recorrect);
+            self.find_far(at, pass + 1 == self.wake.own().recorrect);
             followed += self.solve(at, false)?;
         }
         let memory = self.kept(at);
@@ -175,7 +181,30 @@ impl MarchingExchange {
         });
         self.followed += followed;
         self.keep_passages();
+        self.pass_the_airframe(at);
         Ok(())
+    }
+
+    /// Air at the parts of the airframe over the step that begins, mean over the last passage of a blade [m/s, `_h`]; none where they do
+    /// not feel the wake.
+    pub fn wash(&self) -> Option<AtParts> {
+        let n = self.at_parts.len();
+        let last = (0..n / self.disk.n_blades).map(|back| &self.at_parts[(self.step + n - back) % n]);
+        (n > 0).then(|| mean_at_parts(last))
+    }
+
+    /// The same, mean over the last revolution.
+    pub fn wash_of_turn(&self) -> Option<AtParts> {
+        (!self.at_parts.is_empty()).then(|| mean_at_parts(self.at_parts.iter()))
+    }
+
+    /// Air at the parts of the airframe as the step ends.
+    fn pass_the_airframe(&mut self, at: &Place) {
+        let Some(airframe) = self.wake.options().washed(at.airframe) else { return };
+        let n = self.at_parts.len();
+        if let Some(sample) = self.at_parts.get_mut(self.step % n.max(1)) {
+            *sample = airframe.mean(|points| self.wake.wake_velocity(points));
+        }
     }
 
     /// A revolution with the hub, sticks and the motion of a blade at every azimuth (n_azimuths,) held: inflow and circulation by
@@ -245,19 +274,21 @@ impl MarchingExchange {
         Ok(())
     }
 
-    fn renew_far(&mut self, last: bool) {
+    fn renew_far(&mut self, at: &Place, last: bool) {
         let before = self.before.get_or_insert_default();
         std::mem::swap(before, &mut self.lambda_far);
-        self.find_far(last);
+        self.find_far(at, last);
     }
 
     /// Far inflow of the wake as it is; with the `last` before the next step goes the velocity of its markers.
-    fn find_far(&mut self, last: bool) {
+    fn find_far(&mut self, at: &Place, last: bool) {
         if last {
             self.wake.inflow_far_before_step(&mut self.lambda_far);
         } else {
             self.lambda_far = self.wake.inflow_far();
         }
+        let (options, instant) = (self.wake.options(), self.wake.instant());
+        options.add_upwash(at.airframe, &at.wake_hub(), instant, &mut self.lambda_far);
     }
 
     /// Far inflow `steps` ahead, linear in azimuth from its last two values.

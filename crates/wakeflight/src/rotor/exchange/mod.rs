@@ -20,7 +20,7 @@ use crate::blade::hub_motion::HubMotion;
 use crate::blade::kinematics::PitchMotion;
 use crate::blade::memory_rows::MemoryRows;
 use crate::inflow::disk::{DiskMean, LiftingDisk};
-use crate::wake::{HubMotion as WakeHub, Plane, WakeError};
+use crate::wake::{AirframeInWake, AtParts, HubMotion as WakeHub, Plane, WakeError};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
@@ -39,6 +39,8 @@ pub struct Place<'a> {
     pub gust: &'a [f64],
     /// Ground, where there is one.
     pub ground: Option<Plane>,
+    /// Airframe, where there is one.
+    pub airframe: Option<AirframeInWake>,
 }
 
 impl Place<'_> {
@@ -125,6 +127,16 @@ impl Exchange {
             Self::Dynamic(_) => Held { inflow: None, mean: 0.0 },
             Self::Relaxation(wake) => wake.held(step),
             Self::Marching(wake) => wake.held(step),
+        }
+    }
+
+    /// Air at the parts of the airframe over the step that begins, mean over the last passage of a blade [m/s, `_h`];
+    /// none where they do not feel the wake.
+    pub fn wash(&self) -> Option<AtParts> {
+        match self {
+            Self::Dynamic(_) => None,
+            Self::Relaxation(wake) => wake.steady.wash(),
+            Self::Marching(wake) => wake.wash(),
         }
     }
 

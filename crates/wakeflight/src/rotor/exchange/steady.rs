@@ -3,12 +3,13 @@
 //! Circulation and near wake are solved together at every azimuth; the inflow of everything else is relaxed:
 //! lambda_far <- lambda_far + omega_lambda (lambda_far of the wake - lambda_far) [ribera2004].
 
-use super::Place;
+use super::{Place, row};
 use crate::blade::memory_rows::MemoryRows;
 use crate::inflow::disk::{DiskMean, LiftingDisk};
 use crate::rotor::circulation::{BladeInTime, BladeInstant};
 use crate::rotor::hub::Rotor;
-use crate::wake::{RelaxationOptions, RelaxationWake, WakeError, WakeOptions};
+use crate::wake::airframe::mean_at_parts;
+use crate::wake::{AtParts, RelaxationOptions, RelaxationWake, WakeError, WakeOptions};
 use serde::{Deserialize, Serialize};
 
 /// Growth of the change of inflow over its least, at which a smaller share of each change is taken.
@@ -70,6 +71,9 @@ pub struct SteadyWake {
     pub circulation: Vec<f64>,
     /// Total inflow (n_azimuths, n_stations), thin sections twice as wide.
     pub inflow: Vec<f64>,
+    /// Air at the parts of the airframe with the first blade at every azimuth of a passage [m/s, `_h`]; empty where they do not feel the
+    /// wake.
+    pub at_parts: Vec<AtParts>,
     /// Memory of sections that remember, of the periodic motion last seen; by azimuth.
     pub memory: MemoryRows,
     /// Whether the last pass ended at rest.
@@ -109,6 +113,7 @@ impl SteadyWake {
             lambda_far: inflow.clone(),
             circulation: vec![0.0; inflow.len()],
             inflow,
+            at_parts: Vec::new(),
             memory: MemoryRows::default(),
             converged: false,
             last: None,
@@ -134,6 +139,20 @@ impl SteadyWake {
     /// Mean of the inflow over the disk.
     pub fn mean_inflow(&self) -> f64 {
         self.area.of(&self.inflow, self.width())
+    }
+
+    /// Air at the parts of the airframe, mean over a passage of a blade [m/s, `_h`]; none where they do not feel the wake.
+    pub fn wash(&self) -> Option<AtParts> {
+        (!self.at_parts.is_empty()).then(|| mean_at_parts(self.at_parts.iter()))
+    }
+
+    /// Air at the parts of the airframe over a passage of a blade.
+    fn pass_the_airframe(&mut self, place: &Place) {
+        let (Some(airframe), Some(wake)) = (self.options.washed(place.airframe), &self.wake) else { return };
+        self.at_parts.clear();
+        for l in 0..self.n_azimuths() / self.disk.n_blades {
+            self.at_parts.push(airframe.mean(|points| wake.wake_velocity(points, l)));
+        }
     }
 
     /// Evaluations of the segment law so far.
@@ -217,6 +236,7 @@ impl SteadyWake {
             self.take_mean(&passed);
             self.solve(place, blades)?;
         }
+        self.pass_the_airframe(place);
         Ok(self.converged)
     }
 
@@ -234,7 +254,8 @@ impl SteadyWake {
         let norms = wake.sweep(self.own.sweeps)?;
         self.sweeps += norms.len() as u64;
         let (geometry, first_turn) = norms.last().map_or((0.0, 0.0), |n| (n.all, n.first_turn));
-        let far = wake.inflow_far();
+        let mut far = wake.inflow_far();
+        add_upwash(wake, place, &mut far);
         Ok((far.iter().zip(&self.lambda_far).map(|(a, b)| a - b).collect(), geometry, first_turn))
     }
 
@@ -323,6 +344,25 @@ impl Changes {
         ];
         let worse = |most: f64, r: f64| if most.is_nan() || most > r { most } else { r };
         ratios.into_iter().fold(f64::NEG_INFINITY, worse)
+    }
+}
+
+/// Adds to the far inflow by azimuth what the body of the fuselage does.
+fn add_upwash(wake: &RelaxationWake, place: &Place, far: &mut [f64]) {
+    let (options, hub) = (wake.options(), place.wake_hub());
+    if options.body(place.airframe).is_none() {
+        return;
+    }
+    let (n_blades, n, n_stations) =
+        (options.rotor.n_blades, options.steps_per_revolution(), options.n_stations);
+    let mut inflow = vec![0.0; n_blades * n_stations];
+    for l in 0..n / n_blades {
+        inflow.fill(0.0);
+        options.add_upwash(place.airframe, &hub, &wake.instant(l), &mut inflow);
+        for (b, upwash) in inflow.chunks_exact(n_stations).enumerate() {
+            let k = row(l, b, n_blades, n) * n_stations;
+            far[k..k + n_stations].iter_mut().zip(upwash).for_each(|(v, up)| *v += up);
+        }
     }
 }
 

@@ -10,8 +10,8 @@ use super::rotor::WakeRotor;
 use crate::airfoil::unsteady::Model as Unsteady;
 use crate::vortex::tree::DEFAULT_TOLERANCE;
 use crate::wake::choices::{
-    CoreDistance, Evaluation, FarWake, Form, InboardWake, Precision, Predictor, Scheme, ShedWake, Summation,
-    TipStrength, Trailers,
+    CoreDistance, Evaluation, FarWake, Form, FuselageUpwash, InboardWake, Precision, Predictor, Scheme,
+    ShedWake, Summation, TipStrength, Trailers, Wash,
 };
 use std::f64::consts::TAU;
 
@@ -119,6 +119,12 @@ declare! {
 
         /// Where the tip vortex leaves the blade, over the radius.
         release_radius: f64 = always(1.0), tip_alone(), unit("R"), between(0.5, 1.0);
+
+        /// What stabilator, fin, tail rotor and fuselage feel of the rotor: tables on the mean inflow, or the wake. Not on a stand.
+        wash: Wash = always(Wash::Tables), source(&["howlett1981"]);
+
+        /// What the blades feel of the fuselage in its flight through the air. Not on a stand.
+        fuselage_upwash: FuselageUpwash = always(FuselageUpwash::None), source(&["lamb1932"]);
 
         /// Whether the body's rates act on the free filaments (on blades and near wake they always do).
         rates: bool = always(true), source(&["ribera2004"]);
