@@ -13,6 +13,7 @@ from ..trim import Trim
 from ..units import number
 from .build import BLADES, derivatives, periodic, with_states, with_wake, without_rates
 from .constant import averaged, decomposed, default_harmonics
+from .identified import identified_wake
 from .instants import STICKS, check_inputs, units_of
 from .linearized import METHODS, Linearized
 from .names import INFLOW
@@ -46,9 +47,10 @@ def linearize(
     little (D), and B is that of what remains; without them B holds the control derivatives as they are usually meant.
     wake: of a trim with dynamic inflow `dynamic`, its states are states (default), or `frozen`, they stay as trimmed; of one on a
     free wake `frozen`, the inflow at every station stays as trimmed; `quasi-static`, it follows hub motion, blade pitch and tilt
-    of the disk at once, as the relaxation wake does (some 25 wakes); or `states`, it follows as the wake does that is marched in
-    a flight, whose memory becomes states (about a minute). tolerance: Hankel singular value over the largest, from which such a
-    state is kept.
+    of the disk at once, as the relaxation wake does (some 25 wakes); `states`, it follows as the wake does that is marched in a
+    flight and repeats itself, whose memory becomes states (about a minute); or `identified`, the same from sweeps of the marched
+    wake, in hover too where it does not repeat itself (about a minute). tolerance: Hankel singular value over the largest, from
+    which such a state is kept.
     blades: `multiblade` coordinates, or `individual` ones.
     order: None or `full`; otherwise as for `LinearModel.reduce`.
     method: `harmonic-decomposition`, or `averaging` over azimuth. harmonics: of the state, kept beside its mean; by default those
@@ -77,8 +79,12 @@ def linearize(
         raw = without_rates(raw)
     said: dict[str, Any] = {}
     marched: WakeStates | None = None
-    if wake == "states":
-        marched = states_of_wake(start, raw.where, tolerance)
+    if wake in ("states", "identified"):
+        marched = (
+            states_of_wake(start, raw.where, tolerance)
+            if wake == "states"
+            else identified_wake(start, raw.where, tolerance)
+        )
         raw = with_states(start, raw, marched, asked, stick_rates)
         said = marched.described
     if wake == "quasi-static":

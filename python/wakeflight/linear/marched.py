@@ -94,7 +94,8 @@ class Answer:
 class Orbit:
     """A marched wake that repeats itself, and what it answers."""
 
-    def __init__(self, start: Trim, where: Places):
+    def __init__(self, start: Trim, where: Places, revolutions: int | None = None):
+        """Until it repeats itself, refused where it does not; with `revolutions` for so many at most, whatever comes of it."""
         self.start, self.where = start, where
         self.exchange = _begun(start)
         self.model = self.exchange.model
@@ -105,25 +106,26 @@ class Orbit:
         self.y = core.trim_state(start.problem, start.x, 0.0)[0]
         self.motion = core.trim_motion(start.problem, start.x, self.n)
         self.controls = np.linalg.inv(np.asarray(start.model.data["rigging"]["matrix"])[:3, :3])
-        self.distance = self._settle()
-        self.begin = self.exchange.step_index
-
-    def _settle(self) -> float:
-        before, distances = None, []
-        for _ in range(MOST):
-            now, _ = self.exchange.turn(self.start.problem, self.start.x)
-            if before is not None:
-                distances.append(float(np.abs(now - before).max()) / abs(self.model.disk_mean(now)))
-                if distances[-1] < SETTLED:
-                    return distances[-1]
-            before = now
-        if distances[-1] > NEAR:
+        self.distance = self._settle(MOST if revolutions is None else revolutions)
+        if revolutions is None and self.distance > NEAR:
             raise NumericalFailure(
                 f"linearize: wake = states: the marched wake of this trim has no periodic orbit: after {MOST} revolutions its "
-                f"inflow still changes by {distances[-1]:.1e} of its mean from one to the next (allowed {NEAR:.0e}); there is "
-                "none in hover and at low speed"
+                f"inflow still changes by {self.distance:.1e} of its mean from one to the next (allowed {NEAR:.0e}); there is "
+                "none in hover and at low speed: wake = identified takes its answers in the mean"
             )
-        return distances[-1]
+        self.begin = self.exchange.step_index
+
+    def _settle(self, most: int) -> float:
+        """Change of the inflow over the last revolution, over its mean."""
+        before, distance = None, np.inf
+        for _ in range(most):
+            now, _ = self.exchange.turn(self.start.problem, self.start.x)
+            if before is not None:
+                distance = float(np.abs(now - before).max()) / abs(self.model.disk_mean(now))
+                if distance < SETTLED:
+                    break
+            before = now
+        return distance
 
     @cached_property
     def most(self) -> int:

@@ -40,6 +40,11 @@ class Realisation:
         """States for which each that is left out is below `tolerance`."""
         return int(np.sum(self.hankel > tolerance))
 
+    @classmethod
+    def none(cls, inputs: int, outputs: int) -> Realisation:
+        """No states: nothing is answered later."""
+        return cls((np.zeros((0, 0)), np.zeros((0, inputs)), np.zeros((outputs, 0))), np.zeros(0))
+
 
 def laguerre(pole: float, count: int) -> Matrices:
     """The functions phi_1 .. phi_count of one input as outputs; its states are they."""

@@ -7,10 +7,7 @@ from ..errors import InputError
 from ..inflow import InflowModel
 
 OF_DYNAMIC = ("dynamic", "frozen")
-OF_WAKE = ("states", "quasi-static", "frozen")
-NOT_BUILT = {
-    "identified": "inflow dynamics identified from flights with a free wake",
-}
+OF_WAKE = ("states", "identified", "quasi-static", "frozen")
 
 
 def check_wake(asked: str | None, inflow: InflowModel) -> str:
@@ -18,12 +15,6 @@ def check_wake(asked: str | None, inflow: InflowModel) -> str:
     allowed = OF_DYNAMIC if inflow.is_dynamic else OF_WAKE
     if asked is None and inflow.is_dynamic:
         return OF_DYNAMIC[0]
-    if asked in NOT_BUILT:
-        raise InputError.of(
-            "wake",
-            asked,
-            f"is not built ({NOT_BUILT[asked]}); allowed: {', '.join(allowed)}",
-        )
     if asked is None or asked not in allowed:
         raise InputError.of(
             "wake", str(asked), f"must be said of a trim with inflow='{inflow.name}'; allowed: {', '.join(allowed)}"

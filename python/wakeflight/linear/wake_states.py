@@ -10,6 +10,7 @@ is the mean of the maps there and a step before, half a step late.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -42,12 +43,10 @@ class WakeStates:
     c: np.ndarray
     hankel: np.ndarray
     """Hankel singular values over the largest."""
-    distance: float
-    """How far the wake was from repeating itself: change of inflow over a revolution, over its mean."""
-    misfit: float
-    """What the answers differ from what was fitted to them, over them."""
     hold: float
     """Half a step [s], by which the inflow that is felt is late."""
+    said: Mapping[str, float]
+    """What else is to be said of it, by attribute."""
 
     @property
     def order(self) -> int:
@@ -61,8 +60,7 @@ class WakeStates:
         return {
             "wake_order": self.order,
             **orders,
-            "wake_orbit": self.distance,
-            "wake_misfit": self.misfit,
+            **self.said,
             "wake_hold": self.hold,
         }
 
@@ -75,7 +73,9 @@ def states_of_wake(start: Trim, where: Places, tolerance: float) -> WakeStates:
     slow, quick = causes_of(where, list(range(where.n_modes)))
     at_once = orbit.at_once(quick)
     found, misfit = _realised(orbit, slow, (quick, at_once), tolerance)
-    return _coupled(orbit, where, (slow, found), (quick, at_once), misfit)
+    # how far it was from repeating itself; what the answers differ from what was fitted to them, over them
+    said = {"wake_orbit": orbit.distance, "wake_misfit": misfit}
+    return coupled(orbit, (slow, found), (quick, at_once), said)
 
 
 def _realised(
@@ -134,15 +134,15 @@ def _turned(orbit: Orbit, cause: Cause, k: int) -> float:
     return -1.0 if differential and (k % orbit.n) // orbit.passage % 2 else 1.0
 
 
-def _coupled(
+def coupled(
     orbit: Orbit,
-    where: Places,
     later: tuple[list[Cause], Realisation],
     once: tuple[list[Cause], np.ndarray],
-    misfit: float,
+    said: Mapping[str, float],
 ) -> WakeStates:
     """By states and sticks of the linear model, blade after blade as the inflow is felt."""
     slow, found = later
+    where = orbit.where
     quick, maps = once
     n, n_width = orbit.n, maps.shape[1]
     names = [name for name, _ in where.named(columns(where.n_blades))]
@@ -151,7 +151,7 @@ def _coupled(
 
     def felt(values: np.ndarray, k: int) -> np.ndarray:
         """A map (n, n_width, ...) as all blades meet it at azimuth k of the first."""
-        return np.asarray(values[orbit.rows(k)].reshape(-1, *values.shape[2:]))
+        return np.asarray(values[orbit.rows(k)].reshape(orbit.n_blades * values.shape[1], *values.shape[2:]))
 
     lambdas = where.n_blades * n_width + 1
     at_once = np.zeros((n, lambdas, where.size))
@@ -195,7 +195,6 @@ def _coupled(
         b_controls @ matrix,
         np.stack([np.vstack([felt(c_maps, k), c[-1:]]) for k in range(n)]),
         found.hankel,
-        orbit.distance,
-        misfit,
         lag,
+        said,
     )
