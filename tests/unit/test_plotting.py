@@ -112,6 +112,15 @@ def test_runs_are_compared_in_one_figure_with_a_legend(run):
         comparison.wake_side_views({"a": run, "b": other})
 
 
+def test_curves_of_one_figure_look_different_and_models_always_the_same():
+    models = ["dynamic", "relaxation", "time-marching"]
+    for extra in (["relaxation, standard", "time-marching, standard"], ["a", "b", "c", "d"]):
+        for names in (models + extra, extra + models[:1], extra):
+            found = style.looks(names)
+            assert list(found) == names and len(set(found.values())) == len(names)
+            assert all(found[name] == style.MODELS[name] for name in names if name in models)
+
+
 def test_the_difference_of_two_equal_maps_is_nothing(run):
     figure = trim_maps.figure(run.inflow_trim, run.inflow_trim.roll(psi=9, roll_coords=True).sortby("psi"))
     assert "λ₀ 0.0000  λ₁c 0.0000  λ₁s 0.0000" in figure.axes[2].get_title().replace("-0.0000", "0.0000")

@@ -124,12 +124,16 @@ def levels(*fields: np.ndarray, symmetric: bool = False) -> tuple[float, float]:
 
 def looks(names: Iterable[str]) -> dict[str, tuple[str, str]]:
     """Colour and line of each run by its name: those of the inflow model it is named after, else the next free ones."""
-    found: dict[str, tuple[str, str]] = {}
-    free = [pair for pair in zip(COLORS, LINES, strict=True) if pair[0] not in {color for color, _ in MODELS.values()}]
-    free += list(MODELS.values())
-    for name in names:
-        found[name] = MODELS[name] if name in MODELS else free[len(found) % len(free)]
-    return found
+    names = list(names)
+    taken = {MODELS[name][0] for name in names if name in MODELS}
+    pairs = list(zip(COLORS, LINES, strict=True))
+    colors = {color for color, _ in MODELS.values()}
+    # those that no model has, then those of models that are not drawn
+    free = [pair for pair in pairs if pair[0] not in colors]
+    free += [pair for pair in MODELS.values() if pair[0] not in taken]
+    others = [name for name in names if name not in MODELS]
+    turn = {name: free[i % len(free)] for i, name in enumerate(others)}
+    return {name: MODELS[name] if name in MODELS else turn[name] for name in names}
 
 
 def signed(*fields: np.ndarray, share: float = 0.3) -> bool:

@@ -86,7 +86,7 @@ def convergence(runs: Runs) -> Figure:
     right.set(xlabel="rotor revolutions", ylabel="p [deg/s], right side down +")
     for axes in (middle, right):
         axes.axvline(HANDS_OFF, color=style.GREY, linewidth=0.8, linestyle=":")
-    middle.legend()
+    figure.legend(*middle.get_legend_handles_labels(), loc="outside lower center", ncols=2)
     return figure
 
 
