@@ -117,6 +117,12 @@ class Driven:
         return found
 
 
+def at_once(orbit: Orbit, driven: Driven, once: tuple[list[Cause], np.ndarray], steps: np.ndarray) -> np.ndarray:
+    """What is answered at once (steps, n_blades, n_width); `once`: causes, with their answers by azimuth."""
+    quick = driven.quick(orbit, once[0], steps)
+    return np.stack([once[1][orbit.rows(int(step))] @ each for step, each in zip(steps, quick, strict=True)])
+
+
 def marched(orbit: Orbit, driven: Driven) -> tuple[np.ndarray, np.ndarray]:
     """Inflow (steps, n_blades, n_width) and its mean (steps,) of a copy of the wake from the step after its beginning on."""
     exchange, inflow, mean = orbit.exchange.copy(), [], []
