@@ -6,7 +6,7 @@ import pytest
 import wakeflight as wf
 from wakeflight.linear.marched import Orbit, causes_of, spline
 from wakeflight.linear.names import places
-from wakeflight.linear.realisation import FINE, coefficients, filtered, laguerre, realised
+from wakeflight.linear.realisation import FINE, coefficients, filtered, laguerre, observability, realised
 from wakeflight.linear.response import frequency_response, time_response
 from wakeflight.linear.sweeps import Driven
 
@@ -69,6 +69,14 @@ def test_laguerre_functions_are_orthonormal_and_a_known_system_is_found_again():
     from scipy.linalg import solve_continuous_lyapunov
 
     assert np.allclose(solve_continuous_lyapunov(a, -b @ b.T), np.eye(4), atol=1e-12)
+
+
+def test_what_chains_of_laguerre_functions_show_is_their_gramian():
+    pole, count, n_in = 2.5, 6, 3
+    seen = np.random.default_rng(0).standard_normal((5, count * n_in))
+    a = np.kron(laguerre(pole, count)[0], np.eye(n_in))
+    gramian = observability(seen, pole, count)
+    assert np.allclose(a.T @ gramian + gramian @ a, -seen.T @ seen, atol=1e-10)
 
 
 def test_the_pulse_is_smooth_and_its_rate_is_its_slope(orbit):
@@ -173,6 +181,7 @@ def test_a_lateral_sweep_is_that_of_the_flown_wake_and_not_with_a_frozen_one(sta
     for wake, model in models.items():
         ratio = about(time_response(closed(model), fine, stick[:, None])[0][::2, 0]) / about(rate)
         off[wake] = np.abs(20 * np.log10(np.abs(ratio))).max(), np.abs(np.degrees(np.angle(ratio))).max()
+    assert off["identified"][0] < 0.6 and off["identified"][1] < 3.0, off
     assert off["states"][0] < 0.3 and off["states"][1] < 1.0, off
     assert off["frozen"][0] > 1.0 and off["frozen"][1] > 5.0, off
     assert off["states"][0] < 0.5 * off["quasi-static"][0] and off["states"][1] < 0.5 * off["quasi-static"][1], off

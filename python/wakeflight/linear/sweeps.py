@@ -48,7 +48,7 @@ class Signals:
         whole = np.zeros((self.steps // 2 + 1, given.shape[1]), complex)
         whole[self.line] = 0.5 * self.steps * given
         period: np.ndarray = np.fft.irfft(whole, self.steps, axis=0)
-        return period[steps % self.steps]
+        return np.asarray(period[steps % self.steps])
 
     def rates(self, steps: np.ndarray) -> np.ndarray:
         """Their rates [1/s] (steps, causes)."""
