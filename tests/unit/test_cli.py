@@ -118,7 +118,7 @@ def _nothing_starts(monkeypatch):
         (["linearize", "--order", "small"], "--order"),
         (["linearize", "--inputs", "lateral,rudder"], "rudder"),
         (["linearize", "--linear-wake", "magic"], "wake = 'magic'"),
-        (["linearize", "--inflow", "relaxation", "--linear-wake", "identified"], "is not built"),
+        (["linearize", "--inflow", "relaxation", "--linear-wake", "dynamic"], "must be said of"),
         (["modes", "--out", "a" * 400], "must be a folder that can be written to: File name too long"),
         (["linearize", "--method", "guess"], "guess"),
         (["report", "/nowhere/run.nc"], "/nowhere/run.nc"),

@@ -136,7 +136,7 @@ def test_heading_position_and_wind_do_what_they_must():
         ({"inputs": ()}, "inputs"),
         ({"inputs": ("lateral", "lateral")}, "twice"),
         ({"wake": "states"}, "wake = 'states': must be said of"),
-        ({"wake": "identified"}, "wake = 'identified': is not built"),
+        ({"wake": "identified"}, "wake = 'identified': must be said of"),
         ({"tolerance": 0.0}, "tolerance"),
         ({"wake": "magic"}, "wake"),
         ({"blades": "three"}, "blades"),

@@ -71,11 +71,10 @@ def test_the_wake_flown_answers_as_the_following_one_does_and_not_as_the_frozen_
         assert off["quasi-static", name] < 0.6 * off["frozen", name], off
 
 
-def test_a_wake_must_be_chosen_and_what_is_not_built_is_said(start):
+def test_a_wake_must_be_chosen_of_those_that_there_are(start):
     for wake, said in (
-        (None, "states, quasi-static, frozen"),
+        (None, "states, identified, quasi-static, frozen"),
         ("dynamic", "quasi-static"),
-        ("identified", "not built"),
     ):
         with pytest.raises(wf.InputError, match=said):
             wf.linearize(start, wake=wake)

@@ -6,8 +6,9 @@ import pytest
 import wakeflight as wf
 from wakeflight.linear.marched import Orbit, causes_of, spline
 from wakeflight.linear.names import places
-from wakeflight.linear.realisation import FINE, coefficients, filtered, laguerre, realised
+from wakeflight.linear.realisation import FINE, coefficients, filtered, laguerre, observability, realised
 from wakeflight.linear.response import frequency_response, time_response
+from wakeflight.linear.sweeps import Driven
 
 WAKE = {"azimuth_step": "10 deg", "turns": 2, "trailers": "tip"}
 HOLD = {"pitch": "10 in/rad", "pitch_rate": "6 in/(rad/s)", "roll": "2 in/rad", "yaw_rate": "4 in/(rad/s)"}
@@ -32,7 +33,7 @@ def orbit(start):
 
 @pytest.fixture(scope="module")
 def models(start):
-    return {wake: wf.linearize(start, wake=wake) for wake in ("states", "quasi-static", "frozen")}
+    return {wake: wf.linearize(start, wake=wake) for wake in ("states", "identified", "quasi-static", "frozen")}
 
 
 def test_the_wake_of_a_trim_with_a_marching_one_in_single_precision_is_marched_in_double(orbit):
@@ -70,6 +71,14 @@ def test_laguerre_functions_are_orthonormal_and_a_known_system_is_found_again():
     assert np.allclose(solve_continuous_lyapunov(a, -b @ b.T), np.eye(4), atol=1e-12)
 
 
+def test_what_chains_of_laguerre_functions_show_is_their_gramian():
+    pole, count, n_in = 2.5, 6, 3
+    seen = np.random.default_rng(0).standard_normal((5, count * n_in))
+    a = np.kron(laguerre(pole, count)[0], np.eye(n_in))
+    gramian = observability(seen, pole, count)
+    assert np.allclose(a.T @ gramian + gramian @ a, -seen.T @ seen, atol=1e-10)
+
+
 def test_the_pulse_is_smooth_and_its_rate_is_its_slope(orbit):
     steps = np.arange(0.0, 50.0, 0.01)
     value, rate = orbit.pulse(steps)
@@ -84,7 +93,15 @@ def test_motion_in_turn_is_the_same_in_multiblade_coordinates(orbit):
     cause = next(each for each in slow if each.name == "flap_1_2s")
     assert any(each.name == "flap_1_d_rate" for each in quick)
     for step in (0, 5, 13):
-        z, own = orbit.in_columns(cause, step, 0.3, 2.0)
+        at = np.array([step])
+        driven = Driven.by(orbit, [cause], at, np.array([[0.3]]), np.array([[2.0]]))
+        values = dict(zip([each.name for each in quick], driven.quick(orbit, quick, at)[0], strict=True))
+        # the map of the differential coordinate keeps its sign
+        sign = -1.0 if step // orbit.passage % 2 else 1.0
+        z, own = (
+            sign * np.array([values[f"flap_1_{name}{rate}"] for name in ("0", "1c", "1s", "d")])
+            for rate in ("", "_rate")
+        )
         # a second harmonic of equal blades is the differential coordinate alone
         assert np.abs(z[:3]).max() < 1e-12 and np.abs(own[:3]).max() < 1e-10
         psi = 2 * np.pi * step / orbit.n
@@ -164,6 +181,7 @@ def test_a_lateral_sweep_is_that_of_the_flown_wake_and_not_with_a_frozen_one(sta
     for wake, model in models.items():
         ratio = about(time_response(closed(model), fine, stick[:, None])[0][::2, 0]) / about(rate)
         off[wake] = np.abs(20 * np.log10(np.abs(ratio))).max(), np.abs(np.degrees(np.angle(ratio))).max()
+    assert off["identified"][0] < 0.6 and off["identified"][1] < 3.0, off
     assert off["states"][0] < 0.3 and off["states"][1] < 1.0, off
     assert off["frozen"][0] > 1.0 and off["frozen"][1] > 5.0, off
     assert off["states"][0] < 0.5 * off["quasi-static"][0] and off["states"][1] < 0.5 * off["quasi-static"][1], off

@@ -23,7 +23,8 @@ def linearize(
         str, typer.Option("--inputs", help="by commas: sticks, stabilator, wind_north, wind_east, wind_down")
     ] = "lateral,longitudinal,collective,pedal",
     linear_wake: Annotated[
-        str | None, typer.Option("--linear-wake", help="dynamic; of a free wake states, quasi-static, frozen")
+        str | None,
+        typer.Option("--linear-wake", help="dynamic; of a free wake states, identified, quasi-static, frozen"),
     ] = None,
     method: Annotated[
         str, typer.Option("--method", help="harmonic-decomposition, averaging")

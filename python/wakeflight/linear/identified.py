@@ -20,7 +20,7 @@ from .coherent import following, given
 from .marched import Cause, Orbit, causes_of
 from .names import Places
 from .realisation import realised
-from .sweeps import Driven, Signals, marched
+from .sweeps import Driven, Signals, at_once, marched
 from .wake_states import WakeStates, coupled
 
 BEFORE = 25
@@ -76,8 +76,7 @@ def _later(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Inflow (steps, n_blades, n_width), by the azimuth at which a blade is, less what is answered at once; and its mean."""
     inflow, mean = marched(orbit, driven)
-    quick = driven.quick(orbit, once[0], steps)
-    inflow -= np.stack([once[1][orbit.rows(int(step))] @ each for step, each in zip(steps, quick, strict=True)])
+    inflow -= at_once(orbit, driven, once, steps)
     # held: the mean of this step's and the last's
     inflow[1:] = 0.5 * (inflow[1:] + inflow[:-1])
     for i, step in enumerate(steps):

@@ -10,8 +10,11 @@ blade passage, so that one pulse says what pulses at every other azimuth would.
 
 from __future__ import annotations
 
+import os
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -166,31 +169,27 @@ class Orbit:
         one, two = (transformation(self.n_blades, np.array([psi]), k)[0, :, cause.column] for k in (0, 1))
         return one, two
 
-    def in_columns(self, cause: Cause, step: int, value: float, rate: float) -> tuple[np.ndarray, np.ndarray]:
-        """The same motion as multiblade coordinates and their own rates (columns,)."""
-        shape, slope = self.shapes(cause, step)
-        one, two = (transformation(self.n_blades, np.array([2 * np.pi * step / self.n]), k)[0] for k in (0, 1))
-        z = np.linalg.solve(one, value * shape)
-        moving = rate * shape + self.omega * value * slope
-        return z, np.linalg.solve(one, moving - self.omega * two @ z)
-
     def at_once(self, causes: list[Cause]) -> np.ndarray:
         """Answers in the step of the cause (n, n_width, causes): by azimuth, of the blade that is there."""
         n_width = self.exchange.inflow.shape[1]
         found, names = np.zeros((self.n, n_width, len(causes))), columns(self.n_blades)
         exchange = self.exchange.copy()
-        for step in range(1, self.passage + 1):
-            for i, cause in enumerate(causes):
-                both = []
-                for side in (cause.size, -cause.size):
-                    beside = exchange.copy()
-                    given = (0.0, side) if cause.rate_alone else (side, 0.0)
-                    self.stepped(beside, step, cause, *given)
-                    both.append(np.array(beside.inflow))
-                # a passage on, a coordinate that changes its sign with every passage has changed it
-                sign = -1.0 if step == self.passage and cause.kind == "blade" and names[cause.column] == "d" else 1.0
-                found[self.rows(step), :, i] = sign * (both[0] - both[1]) / (2 * cause.size)
-            self.stepped(exchange, step, None, 0.0, 0.0)
+
+        def answer(step: int, cause: Cause) -> np.ndarray:
+            both = []
+            for side in (cause.size, -cause.size):
+                beside = exchange.copy()
+                self.stepped(beside, step, cause, *((0.0, side) if cause.rate_alone else (side, 0.0)))
+                both.append(np.array(beside.inflow))
+            # a passage on, a coordinate that changes its sign with every passage has changed it
+            sign = -1.0 if step == self.passage and cause.kind == "blade" and names[cause.column] == "d" else 1.0
+            return np.asarray(sign * (both[0] - both[1]) / (2 * cause.size))
+
+        with ThreadPoolExecutor(workers()) as pool:
+            for step in range(1, self.passage + 1):
+                for i, answered in enumerate(pool.map(partial(answer, step), causes)):
+                    found[self.rows(step), :, i] = answered
+                self.stepped(exchange, step, None, 0.0, 0.0)
         return found
 
     def pulse(self, step: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -198,6 +197,11 @@ class Orbit:
         dt = 2 * np.pi / self.omega / self.n
         value, slope = spline(np.asarray(step) / self.passage)
         return value, slope / (self.passage * dt)
+
+    def all_later(self, causes: list[Cause]) -> Iterator[Answer]:
+        """The same of many, in their order; wakes are marched beside each other, which changes none of them."""
+        with ThreadPoolExecutor(workers()) as pool:
+            yield from pool.map(self.later, causes)
 
     def later(self, cause: Cause, share: float = 1.0) -> Answer:
         """What a pulse of the cause does, until the wake has forgotten it."""
@@ -226,6 +230,11 @@ class Orbit:
             np.concatenate([mean, np.zeros(forgotten)]),
             np.concatenate([circulation, np.zeros((forgotten, *circulation[0].shape))]),
         )
+
+
+def workers() -> int:
+    """Threads that march wakes beside each other: as many as the core may use."""
+    return int(os.environ.get("WAKEFLIGHT_THREADS", os.cpu_count() or 1))
 
 
 def spline(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

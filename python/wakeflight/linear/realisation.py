@@ -72,7 +72,7 @@ def realised(c: np.ndarray, pole: float, tolerance: float, scales: tuple[np.ndar
 
     scales: outputs times and inputs over these count alike.
     """
-    from scipy.linalg import cholesky, solve_continuous_lyapunov, toeplitz
+    from scipy.linalg import cholesky, toeplitz
 
     from .reduction import root_of
 
@@ -86,9 +86,28 @@ def realised(c: np.ndarray, pole: float, tolerance: float, scales: tuple[np.ndar
     weight = 1.0 / (1.0 + (pole / CORNER / np.tan(0.5 * theta)) ** 2) ** 2
     felt = np.array([np.mean(weight * np.cos(k * theta)) for k in range(count)])
     reach = np.kron(cholesky(toeplitz(felt) + 1e-12 * np.eye(count), lower=True), np.eye(n_in))
-    observe = root_of(solve_continuous_lyapunov(a.T, -seen.T @ seen))
+    observe = root_of(observability(seen, pole, count))
     left, sizes, right = np.linalg.svd(observe.T @ reach)
     order = int(np.sum(sizes > tolerance * sizes[0]))
     scale = 1.0 / np.sqrt(sizes[:order])
     into, out = reach @ right[:order].T * scale, (observe @ left[:, :order] * scale).T
     return Realisation((out @ a @ into, out @ b, whole @ into), sizes / sizes[0])
+
+
+def observability(seen: np.ndarray, pole: float, count: int) -> np.ndarray:
+    """Observability gramian of the chains with outputs `seen` (outputs, count inputs).
+
+    In 1/z = (s - a)/(s + a) the chain is a shift, -S, with outputs (c_k - c_(k+1))/sqrt(2 a), and has the same gramian:
+    W_ij = C_i' C_j + W_(i+1)(j+1).
+    """
+    n_out = seen.shape[0]
+    by_function = seen.reshape(n_out, count, -1)
+    shifted = np.concatenate([by_function[:, 1:], np.zeros_like(by_function[:, :1])], axis=1)
+    discrete = ((by_function - shifted) / np.sqrt(2.0 * pole)).reshape(n_out, -1)
+    n_in = discrete.shape[1] // count
+    whole = discrete.T @ discrete
+    for k in range(count - 2, -1, -1):
+        here, after = slice(k * n_in, (k + 1) * n_in), slice((k + 1) * n_in, None)
+        whole[here, : -n_in or None] += whole[(k + 1) * n_in : (k + 2) * n_in, n_in:]
+        whole[after, here] = whole[here, after].T
+    return whole

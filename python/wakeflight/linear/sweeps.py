@@ -48,7 +48,7 @@ class Signals:
         whole = np.zeros((self.steps // 2 + 1, given.shape[1]), complex)
         whole[self.line] = 0.5 * self.steps * given
         period: np.ndarray = np.fft.irfft(whole, self.steps, axis=0)
-        return period[steps % self.steps]
+        return np.asarray(period[steps % self.steps])
 
     def rates(self, steps: np.ndarray) -> np.ndarray:
         """Their rates [1/s] (steps, causes)."""
@@ -115,6 +115,12 @@ class Driven:
                     # changes its sign with every passage, as its map does not
                     found[odd, i] *= -1.0
         return found
+
+
+def at_once(orbit: Orbit, driven: Driven, once: tuple[list[Cause], np.ndarray], steps: np.ndarray) -> np.ndarray:
+    """What is answered at once (steps, n_blades, n_width); `once`: causes, with their answers by azimuth."""
+    quick = driven.quick(orbit, once[0], steps)
+    return np.stack([once[1][orbit.rows(int(step))] @ each for step, each in zip(steps, quick, strict=True)])
 
 
 def marched(orbit: Orbit, driven: Driven) -> tuple[np.ndarray, np.ndarray]:

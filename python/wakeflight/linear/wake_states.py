@@ -21,6 +21,7 @@ from .marched import Cause, Orbit, causes_of
 from .multiblade import columns, transformation
 from .names import MOTION, Places
 from .realisation import FINE, Realisation, coefficients, filtered, realised
+from .sweeps import Driven, at_once
 
 COUNT = 28
 """Laguerre functions; their pole is the rotor speed."""
@@ -71,11 +72,11 @@ def states_of_wake(start: Trim, where: Places, tolerance: float) -> WakeStates:
     if orbit.model.remembers:
         raise InputError.of("wake", "states", "needs sections without a memory of their own: unsteady = quasi-steady")
     slow, quick = causes_of(where, list(range(where.n_modes)))
-    at_once = orbit.at_once(quick)
-    found, misfit = _realised(orbit, slow, (quick, at_once), tolerance)
+    once = quick, orbit.at_once(quick)
+    found, misfit = _realised(orbit, slow, once, tolerance)
     # how far it was from repeating itself; what the answers differ from what was fitted to them, over them
     said = {"wake_orbit": orbit.distance, "wake_misfit": misfit}
-    return coupled(orbit, (slow, found), (quick, at_once), said)
+    return coupled(orbit, (slow, found), once, said)
 
 
 def _realised(
@@ -88,11 +89,11 @@ def _realised(
     functions = filtered(omega, COUNT, dt, whole_pulse)
     c = np.zeros((COUNT, orbit.n * n_width + 1, len(slow)))
     left, whole = 0.0, 0.0
-    for i, cause in enumerate(slow):
-        answer = orbit.later(cause)
+    for i, (cause, answer) in enumerate(zip(slow, orbit.all_later(slow), strict=True)):
         inflow, mean = answer.inflow, answer.mean
         every = np.arange(mean.size)
-        inflow -= np.array([_at_once(orbit, cause, known, int(step)) for step in every])
+        value, rate = orbit.pulse(every)
+        inflow -= at_once(orbit, Driven.by(orbit, [cause], every, value[:, None], rate[:, None]), known, every)
         # held: the mean of this step's and the last's
         inflow[1:] = 0.5 * (inflow[1:] + inflow[:-1])
         for phase in range(orbit.passage):
@@ -109,23 +110,6 @@ def _realised(
     outputs = np.sqrt(np.append(np.tile(weights, orbit.n), 1.0))
     inputs = np.array([cause.unit(orbit.model) for cause in slow])
     return realised(c, omega, tolerance, (outputs, inputs)), float(np.sqrt(left / whole))
-
-
-def _at_once(orbit: Orbit, cause: Cause, known: tuple[list[Cause], np.ndarray], step: int) -> np.ndarray:
-    """What is answered at once (n_blades, n_width) to the pulse of a cause `step` steps after the beginning."""
-    column = {each.name: i for i, each in enumerate(known[0])}
-    (value,), (rate,) = orbit.pulse(np.array([step]))
-    here = known[1][orbit.rows(step)]
-    if not cause.of_blades:
-        found: np.ndarray = value * here[:, :, column[cause.name]]
-        return found + rate * here[:, :, column[f"{cause.name}_rate"]] if cause.has_rate else found
-    parts = orbit.in_columns(cause, step, value, rate)
-    found = np.zeros(here.shape[:2])
-    for known_cause in known[0]:
-        if known_cause.of_blades and known_cause.index == cause.index:
-            size = parts[int(known_cause.rate_alone)][known_cause.column]
-            found += size * _turned(orbit, known_cause, step) * here[:, :, column[known_cause.name]]
-    return found
 
 
 def _turned(orbit: Orbit, cause: Cause, k: int) -> float:
