@@ -63,6 +63,7 @@ def blade_loads(run: xr.Dataset) -> xr.Dataset:
     if "input" not in run.attrs:
         raise InputError.of("run", run.attrs.get("maneuver", "flight"), "does not carry its input: fly it again")
     given = FlightInput.from_text(run.attrs["input"])
+    given.asked.inflow.check_first_order("blade_loads")
     aircraft, shape = given.aircraft, frames.geometry(run)
     radius = float(run.attrs["radius"])
     r, alpha, mach = run["station"].values * radius, run["alpha"].values, run["mach"].values

@@ -84,7 +84,7 @@ def converge(model: Model, marching: Exchange, start: Trim, progress: Progress |
         inflow_map, circulation = marching.turn(start.problem, start.x)
         if not np.all(np.isfinite(inflow_map)):
             raise NumericalFailure("convergence phase of the wake left the finite numbers")
-        change = np.sqrt(np.mean((inflow_map - previous) ** 2 @ model.area_weights)) / abs(model.disk_mean(inflow_map))
+        change = model.disk_rms(inflow_map - previous) / abs(model.disk_mean(inflow_map))
         phase.change.append(float(change))
         phase.circulation_lift.append(float(np.mean(circulation @ (model.stations * widths))))
         if phase.after is None:

@@ -112,6 +112,16 @@ class Inflow:
         """Whether the parts of the airframe feel the wake itself."""
         return False
 
+    @property
+    def is_second_order(self) -> bool:
+        """Whether sections meet the air behind their bound line."""
+        return False
+
+    def check_first_order(self, verb: str) -> None:
+        """Refuse sections that meet the air behind their bound line where `verb` knows none."""
+        if self.is_second_order:
+            raise InputError.of("blade_model", "second-order", f"must be lifting-line for {verb}")
+
     def __post_init__(self) -> None:
         """Check every option and that they go together; angles become radians."""
         for option in options_of(self.name).values():
@@ -193,6 +203,7 @@ class FreeWake(Inflow):
     near_wake_angle: Any
     release_radius: float
     wash: str
+    blade_model: str
     fuselage_upwash: str
     update_interval: Any
     precision: str
@@ -212,6 +223,11 @@ class FreeWake(Inflow):
         """Whether the parts of the airframe feel the wake itself."""
         return self.wash == "wake"
 
+    @property
+    def is_second_order(self) -> bool:
+        """Whether sections meet the air behind their bound line."""
+        return self.blade_model == "second-order"
+
     def on_stand(self) -> Self:
         """This model on a stand, where there is no airframe."""
         for name in ("wash", "fuselage_upwash"):
@@ -219,6 +235,10 @@ class FreeWake(Inflow):
             value = getattr(self, name)
             if value != option.default:
                 raise InputError.of(name, value, f"must be {option.default} on a stand, which has no airframe")
+        if self.is_second_order:
+            raise InputError.of(
+                "blade_model", self.blade_model, "is an argument of the stand itself, not of its inflow"
+            )
         return self
 
     @property

@@ -194,14 +194,24 @@ class CompiledRotor:
         q, q_dot = (np.array([range(a, b) for a, b in self.layout[part]], int) for part in ("modal", "modal_rate"))
         return q, q_dot
 
+    def at_stations(self, inflow: np.ndarray) -> np.ndarray:
+        """Inflow at the quarter chord of the stations (..., n_stations) of a map that may hold that of another line behind it."""
+        return inflow[..., : self.stations.size]
+
     def disk_mean(self, inflow: np.ndarray) -> float:
         """Area mean of an inflow map (..., n_stations)."""
-        return disk.disk_mean(inflow, self.area_weights)
+        return disk.disk_mean(self.at_stations(inflow), self.area_weights)
+
+    def disk_rms(self, inflow: np.ndarray) -> float:
+        """Root mean square over the disk of an inflow map (n_azimuths, n_stations)."""
+        return float(np.sqrt(np.mean(self.at_stations(inflow) ** 2 @ self.area_weights)))
 
     def first_harmonics(self, inflow: np.ndarray) -> tuple[float, float, float]:
         """Area mean and first harmonics of an inflow map (n_azimuths, n_stations), the first azimuth being zero."""
         psi = 2 * np.pi * np.arange(inflow.shape[0]) / inflow.shape[0]
-        return disk.first_harmonics(inflow, psi, self.stations / self.rotor["radius"], self.area_weights)
+        return disk.first_harmonics(
+            self.at_stations(inflow), psi, self.stations / self.rotor["radius"], self.area_weights
+        )
 
 
 def resolution(discretisation: Any, n_stations: int) -> dict[str, Any]:
@@ -280,7 +290,8 @@ class Model(CompiledRotor):
         inflow = inflow.resolved(flight_regime(aircraft, condition))
         inflow.step(aircraft)
         resolved = resolution(aircraft.discretisation, inflow.n_stations)
-        chosen = setting((density, speed_of_sound), not inflow.is_dynamic, resolved, **inflow.sections)
+        lift = "tables" if inflow.is_second_order else None
+        chosen = setting((density, speed_of_sound), not inflow.is_dynamic, resolved, lift=lift, **inflow.sections)
         core = _core.System.aircraft(json.dumps(data), chosen)
         if condition.height is not None:
             core = core.above_ground(condition.height)

@@ -324,9 +324,10 @@ class Recorder:
             arrays["age"] = 2 * np.pi * np.arange(kept["wake"].shape[2]) / self.model.steps_per_revolution
         n = self.model.steps_per_revolution
         arrays["psi"] = 2 * np.pi * np.arange(n) / n
-        arrays["inflow_trim"] = self.start.inflow_map
+        arrays["inflow_trim"] = self.model.at_stations(self.start.inflow_map)
         if phase.after is not None:
-            arrays["inflow_before"], arrays["inflow_start"] = phase.before, phase.after
+            before, after = (self.model.at_stations(known(each)) for each in (phase.before, phase.after))
+            arrays["inflow_before"], arrays["inflow_start"] = before, after
         return arrays
 
     def counters(self) -> dict[str, int]:

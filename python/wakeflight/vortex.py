@@ -29,6 +29,7 @@ def induced_velocity(
     core_distance: str = "line",
     method: str = "direct",
     tolerance: float = 1e-3,
+    curvature_correction: bool = False,
 ) -> NDArray[np.float64]:
     """Velocity induced at points by filaments of straight segments (n, 3) [m/s].
 
@@ -53,6 +54,11 @@ def induced_velocity(
         exactly, for thousands of segments and more; "auto", the faster of the two (the tree from about 4000 points and
         4000 segments on, docs/numerics/performance.md).
         By the tree, a point's velocity depends within the tolerance on which other points are asked for.
+    curvature_correction: whether points that are inner nodes of a filament, to the last bit, also get what the arc through
+        them and their neighbours induces beyond its two chords a and b, along its binormal,
+        kappa circulation / (4 pi) max(0, ln(2 sqrt(a b) / core) - 0.5772). The constant is that of vatistas2 cores; with
+        core_distance = "segment" a vortex ring then moves at its speed within 0.1 %, for chords of three cores and more and steps
+        up to 20 degrees.
     tolerance [-]: error that the tree is allowed, over the largest induced velocity at the points.
     """
     points = _vectors("points", points)
@@ -73,13 +79,16 @@ def induced_velocity(
     _one_of("core", core, CORES)
     _one_of("core_distance", core_distance, CORE_DISTANCES)
     _one_of("method", method, METHODS)
+    if curvature_correction and core != "vatistas2":
+        raise InputError(f"core = {core!r}: allowed is vatistas2 with curvature_correction")
     if not 0.0 < tolerance < 1.0:
         raise InputError(f"tolerance = {tolerance!r}: allowed are numbers above 0 and below 1")
 
     n_nodes = np.array([len(filament) for filament in nodes], dtype=np.int64)
     all_nodes = np.concatenate(nodes) if nodes else np.empty((0, 3))
     summed = method if method == "direct" else {method: {"tolerance": float(tolerance)}}
-    law = json.dumps({"core": core, "core_distance": core_distance, "method": summed})
+    chosen = {"core": core, "core_distance": core_distance, "method": summed}
+    law = json.dumps(chosen | {"curvature_correction": curvature_correction})
     return _core.induced_velocity(points, all_nodes, n_nodes, (circulation, core_radius), law)
 
 

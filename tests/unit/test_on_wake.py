@@ -94,6 +94,7 @@ class EverySecond:
     """A marching wake of which every second revolution is trimmed on."""
 
     told = ""
+    wash = None
     longest = 9
 
     def __init__(self):

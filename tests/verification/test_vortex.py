@@ -210,6 +210,37 @@ def test_verif_core_profiles_have_their_thin_ring_constants():
         assert 0.5 - limit == pytest.approx(expected, abs=5e-7), core
 
 
+@pytest.mark.parametrize("core_radius", [0.01, 0.02, 0.05])
+def test_verif_a_ring_of_chords_moves_at_its_exact_speed_with_the_curvature_correction(core_radius):
+    """Thin ring with the Vatistas n = 2 core: S = 4 pi R U/circulation = ln(8 R/r_c) - 1/2."""
+    ring = circle(36)
+    strengths, cores = np.ones(36), np.full(36, core_radius)
+    given = {"core_distance": "segment"}
+    without, with_it = (
+        wf.induced_velocity(ring[1:-1], [ring], strengths, cores, **given, curvature_correction=on)
+        for on in (False, True)
+    )
+    exact = (math.log(8.0 / core_radius) - 0.5) / (4.0 * math.pi)
+    assert np.abs(with_it[:, 2] / exact - 1.0).max() < 1e-3
+    assert np.all(without[:, 2] < 0.9 * exact)
+    # points beside the nodes, ends of a filament and straight filaments get nothing of it
+    beside = np.concatenate([ring[:1], ring[1:-1] + 1e-9])
+    plain = wf.induced_velocity(beside, [ring], strengths, cores, **given)
+    assert np.array_equal(
+        wf.induced_velocity(beside, [ring], strengths, cores, **given, curvature_correction=True), plain
+    )
+    with pytest.raises(wf.InputError, match="core = 'scully': allowed is vatistas2 with curvature_correction"):
+        wf.induced_velocity(ring, [ring], strengths, cores, core="scully", curvature_correction=True)
+
+
+def circle(n):
+    """Nodes of a closed polygon (n + 1, 3) in the unit circle."""
+    angle = 2.0 * np.pi * np.arange(n + 1) / n
+    nodes = np.column_stack([np.cos(angle), np.sin(angle), np.zeros(n + 1)])
+    nodes[-1] = nodes[0]
+    return nodes
+
+
 def test_filaments_of_different_lengths_add_up():
     first, second = polygon(12), polygon(7)[:4] + np.array([0.0, 0.0, 0.5])
     points = np.random.default_rng(0).normal(size=(100, 3))

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""The wake felt by the airframe, and the fuselage by the blades: the velocity is that of the wake at the parts, trims and flights feel
-it, snapshots keep it, the mirror image has it mirrored; on a stand and with dynamic inflow there is no such thing."""
+"""The wake felt by the airframe, and the fuselage by the blades: the velocity is that of the wake at the parts, trims and flights
+feel it, snapshots keep it, the mirror image has it mirrored; on a stand and with dynamic inflow there is no such thing."""
 
 import numpy as np
 import pytest

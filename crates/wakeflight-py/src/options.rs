@@ -67,7 +67,7 @@ pub fn check_options(options_json: &str) -> PyResult<()> {
     };
     // without vortices there is nothing that sheds
     let free = given.relaxation.is_some() || given.marching.is_some();
-    let shed = if free { wake.check_shed_wake() } else { Ok(()) };
+    let shed = if free { wake.check_shed_wake().and_then(|()| wake.check_blade_model()) } else { Ok(()) };
     let checked = given.rotor.map_or_else(|| wake.check_alone().and(shed), |_| wake.validate());
     let relaxation = given.relaxation.map_or(Ok(()), |own| own.validate());
     let marching = given.marching.map_or(Ok(()), |own| own.validate(&wake));

@@ -4,6 +4,7 @@ use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
 use serde::Deserialize;
 use wakeflight::vortex::core::{Core, CoreDistance};
+use wakeflight::vortex::curvature::add_curvature_velocity;
 use wakeflight::vortex::induced_velocity::Filaments;
 use wakeflight::vortex::threads;
 use wakeflight::vortex::tree::{Method, add_filaments_velocity_by};
@@ -15,10 +16,12 @@ struct Law {
     core: Core,
     core_distance: CoreDistance,
     method: Method,
+    curvature_correction: bool,
 }
 
 /// Velocity (n, 3) [m/s] at `points` (n, 3) [m] of filaments of `n_nodes` nodes each, one after the other in `nodes` (m, 3) [m];
-/// segments: circulation [m2/s] and core radius [m]; the law as JSON: core, core_distance, method.
+/// segments: circulation [m2/s] and core radius [m]; the law as JSON: core, core_distance, method,
+/// curvature_correction.
 #[pyfunction]
 pub fn induced_velocity(
     py: Python<'_>,
@@ -56,6 +59,9 @@ pub fn induced_velocity(
             law.core_distance,
             &mut velocity,
         );
+        if law.curvature_correction {
+            add_curvature_velocity(&points, &filaments, &mut velocity);
+        }
         velocity
     });
     Ok(vectors(velocity, &[]))

@@ -71,6 +71,7 @@ def linearize(
         raise InputError.of("stick_rates", stick_rates, "allowed: True, False")
     if isinstance(order, str) and order != "full":
         raise InputError.of("order", order, "must be a number of states, names of states to keep, or full")
+    start.inflow.check_first_order("linearize")
     wake = check_wake(wake, start.inflow)
     tolerance = number("tolerance", tolerance, 1e-6, 0.5)
     n = _azimuths(azimuths, start)

@@ -83,7 +83,8 @@ class AircraftOnWake(TrimOnWake[Model, WakeInTrim]):
             last = self.moves[-2]
             if moved @ last < -0.5 * (last @ last):
                 self.mixing = max(0.5 * self.mixing, 0.25)
-        found: np.ndarray = held + self.mixing * (wake.inflow_map - held)
+        given = wake.inflow_map
+        found = held + self.mixing * (given - held) if held.shape == given.shape else given
         now, before = wake.wash, self.wash
         self.wash = now if now is None or before is None else before + self.mixing * (now - before)
         return found
@@ -213,7 +214,7 @@ class Means:
 
     def rms(self, change: np.ndarray) -> float:
         """Root mean square over the disk of a map (n_azimuths, n_stations)."""
-        return float(np.sqrt(np.mean((change**2) @ self.model.area_weights)))
+        return self.model.disk_rms(change)
 
 
 def varying(wander: float, turns: int) -> str:

@@ -40,7 +40,7 @@ def dataset(start: Solved, monitors: tuple[Monitor, ...], said: dict[str, str]) 
         "ct_sigma": mean["ct"] / start.aircraft.solidity,
         "azimuth": 2 * np.pi * np.arange(n) / n,
         "station": model.stations / model.rotor["radius"],
-        "inflow": start.inflow_map,
+        "inflow": model.at_stations(start.inflow_map),
         "circulation": start.circulation,
         "modal": model.core.trim_motion(start.problem, start.x, n)[0] * scale,
         "modal_harmonics": np.array([start.x[a:b] * s for a, b, s in zip(modes[:-1], modes[1:], scale, strict=True)]),

@@ -20,7 +20,7 @@ def monitors(start: Solved) -> tuple[Monitor, ...]:
     """Everything that is watched of a trim."""
     model, mean = start.model, start.mean_outputs()
     places = disk_places(model, start.inflow_map.shape[0])
-    fields = {"inflow": start.inflow_map, **start.maps("alpha", "mach")}
+    fields = {"inflow": model.at_stations(start.inflow_map), **start.maps("alpha", "mach")}
     y = start.state()
     velocity = np.asarray(model.core.hub(y)[0]) / model.tip_speed
     mu, mu_z = mean["mu"], -float(velocity[2])

@@ -158,6 +158,9 @@ class TrimOnWake(ABC, Generic[Rotor, Wake]):
         problem = trim_problem(model, inflow_map, self.wash)
         attempt = newton(model, problem, x, work)
         share, advance = 0.0, 0.5
+        if before is not None and inflow_map is not None and before.shape != inflow_map.shape:
+            # the first map has no inflow of its own behind the bound line
+            before = np.tile(before, inflow_map.shape[1] // before.shape[1])
         while not attempt.met and before is not None and work.left > 0 and advance >= LEAST_ADVANCE:
             part = min(1.0, share + advance)
             partly = trim_problem(model, before + part * (inflow_map - before), self.wash)

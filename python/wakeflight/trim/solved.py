@@ -168,7 +168,7 @@ class Solved(Solution):
 
     def maps(self, *names: str) -> dict[str, np.ndarray]:
         """Section quantities `names` of the outputs by azimuth and station, like `inflow_map`."""
-        found = {name: np.empty_like(self.inflow_map) for name in names}
+        found = {name: np.empty_like(self.circulation) for name in names}
         for rows, out in self.instants():
             for name, values in found.items():
                 values[rows] = out[name]

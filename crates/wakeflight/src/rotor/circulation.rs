@@ -10,7 +10,7 @@ use crate::blade::memory_rows::MemoryRows;
 use crate::blade::section_wind::SectionWind;
 use crate::blade::sections_in_time::BladePast;
 use crate::blade::surroundings::BladeInflow;
-use crate::blade::thin_section::ThinSection;
+use crate::blade::thin_section::{SectionLift, ThinSection};
 use crate::numerics::scalar::{Dual, Real};
 use crate::wake::{
     BladeState, CirculationSolution, HubMotion as WakeHub, Route, WakeError, WakeOptions, near_wake_matrix,
@@ -89,6 +89,9 @@ impl Course {
 
 /// Largest difference between the circulation of a section and that of its element, over omega R^2.
 const CIRCULATION_TOLERANCE: f64 = 1e-8;
+
+/// Least 1 - M^2 of the chord in compressible flow: beyond M = 0.9 it is held.
+const LEAST_SHARE_OF_CHORD: f64 = 1.0 - 0.9 * 0.9;
 
 impl Rotor {
     /// Circulation [m2/s] at every station for inflow `lambda`, and its derivative by the inflow there.
@@ -192,9 +195,30 @@ impl Rotor {
         }
     }
 
+    /// Chords [m] that set the distance of the control points from the bound line.
+    ///
+    /// The tables hold the compressible flow of a section, so that its own bound line is felt as in compressible flow too: Goethert,
+    /// lengths along the stream over sqrt(1 - M^2), M of the speed across the span that turning and flight give the station.
+    /// Tangency keeps the chord.
+    fn chords(&self, speed_of_sound: f64, hub: &WakeHub, psi: f64) -> Vec<f64> {
+        let compressible = self.thin.is_some_and(|law| law.lift == SectionLift::Tables);
+        let (sine, cosine) = psi.sin_cos();
+        let [forward, side, _] = hub.velocity;
+        let flight = side * cosine - forward * sine;
+        let stations = self.blade.stations.iter();
+        stations
+            .map(|station| {
+                let mach = (self.omega * station.shapes.x + flight) / speed_of_sound;
+                let share = (1.0 - mach * mach).max(LEAST_SHARE_OF_CHORD);
+                station.geometry.chord / if compressible { share.sqrt() } else { 1.0 }
+            })
+            .collect()
+    }
+
     /// Induction of a blade's own near wake, at the azimuth and the angles of `state`.
     pub fn near_wake(
         &self,
+        air: Air,
         options: &WakeOptions,
         hub: &WakeHub,
         state: &BladeState,
@@ -203,7 +227,7 @@ impl Rotor {
         let bound_line = near_wake_matrix(options, hub, state)?;
         let three_quarter = match self.thin {
             Some(_) => {
-                let chords: Vec<f64> = self.blade.stations.iter().map(|s| s.geometry.chord).collect();
+                let chords = self.chords(air.speed_of_sound, hub, state.psi);
                 Some(weissinger_matrix(options, hub, state, &chords)?)
             }
             None => None,
@@ -310,7 +334,8 @@ impl Rotor {
         let mut all = Circulations::default();
         for (i, blade) in instants.iter().enumerate() {
             let (flap, lead) = self.equivalent_angles(&blade.modal);
-            let near = self.near_wake(options, &course.near, &BladeState { psi: blade.psi, flap, lead })?;
+            let near =
+                self.near_wake(air, options, &course.near, &BladeState { psi: blade.psi, flap, lead })?;
             let row = i * n..(i + 1) * n;
             let past = if by_steps {
                 // where separation is steep its lag, held, would lead the circulation astray

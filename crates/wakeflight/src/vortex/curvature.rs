@@ -1,5 +1,8 @@
 //! Local self-induction of a curved filament, which its straight segments leave out.
 
+use super::induced_velocity::Filaments;
+use std::collections::HashMap;
+
 /// Velocity that the curvature of a filament induces at its node `here`, between `prev` and `next` [m/s].
 ///
 /// On the circle through the three nodes, a = here - prev, b = next - here, kappa its curvature, n the unit of a x b:
@@ -30,6 +33,32 @@ pub fn curvature_velocity(
     // kappa n = 2 a x b / (|a| |b| |a + b|)
     let factor = circulation / (2.0 * std::f64::consts::PI * chords) * bracket.max(0.0);
     normal.map(|c| factor * c)
+}
+
+/// Adds what the curvature of their filament induces at those of the `points` that are inner nodes of one, to the last bit of their
+/// coordinates [m/s]; circulation and square of the core radius there the means of the two segments that meet.
+pub fn add_curvature_velocity(points: &[[f64; 3]], filaments: &Filaments, velocity: &mut [[f64; 3]]) {
+    let place = |p: &[f64; 3]| p.map(|c| (c + 0.0).to_bits());
+    let mut at: HashMap<[u64; 3], Vec<usize>> = HashMap::new();
+    for (i, point) in points.iter().enumerate() {
+        at.entry(place(point)).or_default().push(i);
+    }
+    let (mut node, mut segment) = (0, 0);
+    for &n in &filaments.n_nodes {
+        for k in 1..n.saturating_sub(1) {
+            let Some(found) = at.get(&place(&filaments.nodes[node + k])) else { continue };
+            let [before, after] = [segment + k - 1, segment + k];
+            let circulation = 0.5 * (filaments.circulation[before] + filaments.circulation[after]);
+            let [a, b] = [before, after].map(|s| filaments.core_radius[s].powi(2));
+            let [prev, here, next] = [k - 1, k, k + 1].map(|k| filaments.nodes[node + k]);
+            let local = curvature_velocity(prev, here, next, circulation, (0.5 * (a + b)).sqrt());
+            for &i in found {
+                velocity[i].iter_mut().zip(local).for_each(|(v, more)| *v += more);
+            }
+        }
+        node += n;
+        segment += n.saturating_sub(1);
+    }
 }
 
 const EULER_GAMMA: f64 = 0.577_215_664_901_532_9;

@@ -147,6 +147,16 @@ choices! {
 }
 
 choices! {
+    /// Where along the chord the sections of a blade meet the air of its own wake.
+    pub enum BladeModel {
+        /// At the quarter chord, on the bound line.
+        LiftingLine = "lifting-line",
+        /// At three quarters of the chord of compressible flow, behind the bound line; by the tables at the angle there.
+        SecondOrder = "second-order",
+    }
+}
+
+choices! {
     /// What the parts of the airframe feel of the rotor.
     pub enum Wash {
         /// The tables or factors of the aircraft, on the mean inflow.

@@ -35,8 +35,8 @@ pub mod velocity_field;
 
 pub use airframe::{AirframeInWake, AtParts};
 pub use choices::{
-    CoreDistance, Evaluation, FarWake, Form, FuselageUpwash, InboardWake, Precision, Predictor, Scheme,
-    ShedWake, Summation, TipStrength, Trailers, Wash,
+    BladeModel, CoreDistance, Evaluation, FarWake, Form, FuselageUpwash, InboardWake, Precision, Predictor,
+    Scheme, ShedWake, Summation, TipStrength, Trailers, Wash,
 };
 pub use circulation::{CirculationSolution, Route, solve_circulation};
 pub use error::WakeError;

@@ -12,8 +12,7 @@ use crate::vortex::threads::share;
 use crate::wake::airframe::mean_at_parts;
 use crate::wake::miss_distance::miss_distance_in_cores;
 use crate::wake::{
-    AtParts, BladeState, CirculationSolution, HubMotion as WakeHub, InboardWake, Route, TimeMarchingWake,
-    WakeError,
+    AtParts, BladeState, CirculationSolution, InboardWake, Route, TimeMarchingWake, WakeError,
 };
 use serde::{Deserialize, Serialize};
 
@@ -158,7 +157,7 @@ impl MarchingExchange {
         }
         self.wake.set_pace(at.pace())?;
         self.wake.set_ground(at.ground);
-        self.place(at.rotor, blades, &at.near_hub())?;
+        self.place(at, blades)?;
         let mut followed = self.solve(at, true)?;
         let step = self.wake.step(hub, &self.states, &self.circulation)?;
         self.renew_far(at, self.wake.own().recorrect == 0);
@@ -254,7 +253,8 @@ impl MarchingExchange {
     }
 
     /// Blades at their azimuths, and their near wakes.
-    fn place(&mut self, rotor: &Rotor, blades: &[BladeInstant], hub: &WakeHub) -> Result<(), WakeError> {
+    fn place(&mut self, at: &Place, blades: &[BladeInstant]) -> Result<(), WakeError> {
+        let (rotor, hub) = (at.rotor, &at.near_hub());
         self.blades.clear();
         self.blades.extend_from_slice(blades);
         self.states.clear();
@@ -265,7 +265,7 @@ impl MarchingExchange {
         let mut near_wakes: Vec<Option<Result<NearWake, WakeError>>> = blades.iter().map(|_| None).collect();
         let options = self.wake.options();
         share(self.states.iter().zip(&mut near_wakes), |(state, near)| {
-            *near = Some(rotor.near_wake(options, hub, state));
+            *near = Some(rotor.near_wake(at.air, options, hub, state));
         });
         self.near_wakes.clear();
         for near in near_wakes.into_iter().flatten() {

@@ -10,8 +10,8 @@ use super::rotor::WakeRotor;
 use crate::airfoil::unsteady::Model as Unsteady;
 use crate::vortex::tree::DEFAULT_TOLERANCE;
 use crate::wake::choices::{
-    CoreDistance, Evaluation, FarWake, Form, FuselageUpwash, InboardWake, Precision, Predictor, Scheme,
-    ShedWake, Summation, TipStrength, Trailers, Wash,
+    BladeModel, CoreDistance, Evaluation, FarWake, Form, FuselageUpwash, InboardWake, Precision, Predictor,
+    Scheme, ShedWake, Summation, TipStrength, Trailers, Wash,
 };
 use std::f64::consts::TAU;
 
@@ -46,6 +46,9 @@ declare! {
         /// Whether the drag of a section acts along the whole wind that it meets, its part along the span included; else along the
         /// part normal to the span.
         yawed_drag: bool = always(false), of(FLOWN), source(&["johnson1986"]);
+
+        /// Where the sections of a blade meet the air of its own wake; on a stand `blade_model` of the stand says it.
+        blade_model: BladeModel = always(BladeModel::LiftingLine), source(&["johnson1986"]);
 
         /// What the stencils act on: displacement from the release point, or position.
         form: Form = always(Form::Displacement);

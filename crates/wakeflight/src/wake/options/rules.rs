@@ -3,9 +3,12 @@
 use super::declared::{MarchingOptions, RelaxationOptions, WakeOptions};
 use super::describe::short;
 use super::rotor::WakeRotor;
+use crate::airfoil::unsteady::Model as Unsteady;
 use crate::vortex::sources::Packing;
 use crate::vortex::tree::Method;
-use crate::wake::choices::{FarWake, Form, InboardWake, Precision, ShedWake, Summation, Trailers};
+use crate::wake::choices::{
+    BladeModel, FarWake, Form, InboardWake, Precision, ShedWake, Summation, Trailers,
+};
 use crate::wake::error::WakeError;
 use std::f64::consts::TAU;
 
@@ -205,11 +208,29 @@ impl WakeOptions {
         )
     }
 
+    /// Checks that sections behind their bound line have a near wake, and no states.
+    pub fn check_blade_model(&self) -> Result<(), WakeError> {
+        let second_order = self.blade_model == BladeModel::SecondOrder;
+        demand(
+            !second_order || self.unsteady == Unsteady::QuasiSteady,
+            "unsteady",
+            || format!("'{}'", self.unsteady.name()),
+            || "must be quasi-steady with blade_model = second-order".to_owned(),
+        )?;
+        demand(
+            !second_order || self.near_wake_angle > 0.0,
+            "near_wake_angle",
+            || degrees(self.near_wake_angle),
+            || "must be above 0 with blade_model = second-order".to_owned(),
+        )
+    }
+
     /// Checks every value, with the rotor they belong to.
     pub fn validate(&self) -> Result<(), WakeError> {
         self.rotor.validate()?;
         self.check_alone()?;
         self.check_shed_wake()?;
+        self.check_blade_model()?;
         let WakeRotor { n_blades, radius, root_cutout, hinge_offset, .. } = self.rotor;
         check_azimuth_step(self.azimuth_step, n_blades)?;
         let steps = || format!("must be a whole number of azimuth steps of {}", degrees(self.azimuth_step));
@@ -259,7 +280,6 @@ impl MarchingOptions {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::airfoil::unsteady::Model as Unsteady;
     use crate::wake::options::describe::{Descriptor, FREE_WAKES, Kind, Told};
 
     fn options() -> WakeOptions {
