@@ -9,6 +9,7 @@ pilot's and stay.
 from __future__ import annotations
 
 import math
+from bisect import bisect_right
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -119,11 +120,11 @@ class Maneuver:
             self._check_begins(self.seconds)
 
     @cached_property
-    def _histories(self) -> tuple[tuple[int, np.ndarray, np.ndarray, list[float]], ...]:
+    def _histories(self) -> tuple[tuple[int, list[float], list[float], list[float]], ...]:
         """For each stick that moves: its place among the sticks, corner times [s], inches, slopes of the pieces [in/s]."""
         found = []
         for stick, corners in self.corners_of:
-            times, inches = (np.array(each, dtype=float) for each in zip(*corners, strict=True))
+            times, inches = ([float(x) for x in each] for each in zip(*corners, strict=True))
             found.append((STICKS.index(stick), times, inches, slopes_of(corners)))
         return tuple(found)
 
@@ -174,10 +175,17 @@ class Maneuver:
 
     def offset(self, t: float) -> np.ndarray:
         """Sticks from trim (4,) [in] at time `t` [s]."""
-        sticks = np.zeros(4)
-        for stick, times, inches, _ in self._histories:
-            sticks[stick] = np.interp(t, times, inches)
-        return sticks
+        # plain numbers: asked several times at every step
+        sticks = [0.0] * 4
+        for stick, times, inches, slopes in self._histories:
+            piece = bisect_right(times, t) - 1
+            if piece < 0:
+                sticks[stick] = inches[0]
+            elif piece < len(slopes):
+                sticks[stick] = slopes[piece] * (t - times[piece]) + inches[piece]
+            else:
+                sticks[stick] = inches[-1]
+        return np.array(sticks)
 
     def stick(self, t: float, trim_in: Sequence[float] | np.ndarray) -> np.ndarray:
         """Sticks (4,) [in] from the stop at time `t` [s], about the trim sticks `trim_in` (4,) [in]."""
@@ -186,12 +194,12 @@ class Maneuver:
 
     def rate(self, t: float) -> np.ndarray:
         """Stick rates (4,) [in/s] at time `t` [s]; at a corner the rate that follows."""
-        rates = np.zeros(4)
+        rates = [0.0] * 4
         for stick, times, _, slopes in self._histories:
-            piece = int(np.searchsorted(times, t, side="right")) - 1
+            piece = bisect_right(times, t) - 1
             if 0 <= piece < len(slopes):
                 rates[stick] = slopes[piece]
-        return rates
+        return np.array(rates)
 
     def for_aircraft(self, travel_in: Sequence[float], omega: float) -> Maneuver:
         """The manoeuvre in an aircraft's own inches and revolutions; `adapted` says what that changed.

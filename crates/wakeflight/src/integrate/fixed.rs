@@ -12,6 +12,7 @@ use crate::system::instant::{Inputs, Instant};
 use crate::system::layout::Layout;
 use crate::system::model::System;
 use crate::system::slopes::Slopes;
+use crate::vortex::threads::share;
 use nalgebra::Complex;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -122,7 +123,7 @@ pub struct FixedStep {
     last_step: Option<f64>,
     z: [Vec<f64>; STAGES],
     f: [Vec<f64>; STAGES],
-    stage: Vec<f64>,
+    stages: [Vec<f64>; STAGES],
     right_real: Vec<f64>,
     right_complex: Vec<Complex<f64>>,
     counters: Counters,
@@ -155,7 +156,7 @@ impl FixedStep {
             last_step: None,
             z: zeros(),
             f: zeros(),
-            stage: vec![0.0; n],
+            stages: zeros(),
             right_real: vec![0.0; n],
             right_complex: vec![Complex::ZERO; n],
             counters: Counters::default(),
@@ -346,13 +347,14 @@ impl FixedStep {
         let n = self.y.len();
         for s in 0..STAGES {
             for i in 0..n {
-                self.stage[i] = self.y[i] + self.z[s][i];
+                self.stages[s][i] = self.y[i] + self.z[s][i];
                 self.rates[s][i] = (0..STAGES).map(|j| m.inverse[s][j] * self.z[j][i]).sum::<f64>() / h;
             }
-            let t = self.t + m.c[s] * h;
-            let at = Instant { t, y: &self.stage, y_dot: &self.rates[s], inputs };
-            system.residual_of_four(&at, &mut self.f[s]);
         }
+        let stages = self.stages.iter().zip(&self.rates).zip(m.c).zip(&mut self.f);
+        share(stages, |(((y, y_dot), c), f)| {
+            system.residual_of_four(&Instant { t: self.t + c * h, y, y_dot, inputs }, f);
+        });
         self.counters.residual_evaluations += STAGES as u64;
         let w = &m.t_inverse;
         for i in 0..n {

@@ -1,63 +1,197 @@
-//! Small dense linear systems, solved where they stand.
+//! Small dense linear algebra, row by row in blocks of vectors.
 
-/// Solves A x = b by elimination with partial pivoting: `matrix` (n, n) row-major is used up, `right` (n) becomes x.
-///
-/// Returns whether every pivot differs from zero; otherwise both hold whatever was reached.
-pub fn solve_in_place(matrix: &mut [f64], right: &mut [f64]) -> bool {
-    let n = right.len();
-    debug_assert_eq!(matrix.len(), n * n);
-    for k in 0..n {
-        let size = |row: usize| matrix[row * n + k].abs();
-        let pivot = (k + 1..n).fold(k, |best, row| if size(row) > size(best) { row } else { best });
-        if matrix[pivot * n + k] == 0.0 {
-            return false;
+use super::compiled::{BLOCK, Loops, compiled};
+
+type Block = [f64; BLOCK];
+
+/// A vector of length `n` in whole blocks.
+fn blocks_of(n: usize) -> usize {
+    n.div_ceil(BLOCK)
+}
+
+/// Adds `factor` times `from` to `to`, block by block.
+#[inline(always)]
+fn add_scaled(to: &mut [Block], factor: f64, from: &[Block]) {
+    for (to, from) in to.iter_mut().zip(from) {
+        for (a, b) in to.iter_mut().zip(from) {
+            *a += factor * b;
         }
-        if pivot != k {
-            let (upper, lower) = matrix.split_at_mut(pivot * n);
-            upper[k * n + k..(k + 1) * n].swap_with_slice(&mut lower[k..n]);
-            right.swap(k, pivot);
-        }
-        let (upper, lower) = matrix.split_at_mut((k + 1) * n);
-        let first = &upper[k * n + k..];
-        let (inverse, known) = (1.0 / first[0], right[k]);
-        for (row, b) in lower.chunks_exact_mut(n).zip(&mut right[k + 1..]) {
-            let factor = row[k] * inverse;
-            for (a, p) in row[k + 1..].iter_mut().zip(&first[1..]) {
-                *a -= factor * p;
+    }
+}
+
+/// A matrix that is multiplied by vectors, kept column by column.
+#[derive(Clone, Debug, Default)]
+pub struct Columns {
+    n: usize,
+    blocks: Vec<Block>,
+}
+
+impl Columns {
+    /// Of a `matrix` (n, n), row-major.
+    pub fn new(matrix: &[f64], n: usize) -> Self {
+        debug_assert_eq!(matrix.len(), n * n);
+        let width = blocks_of(n);
+        let mut blocks = vec![[0.0; BLOCK]; n * width];
+        for (j, column) in blocks.chunks_exact_mut(width.max(1)).enumerate() {
+            for (value, row) in column.as_flattened_mut().iter_mut().zip(matrix.chunks_exact(n.max(1))) {
+                *value = row[j];
             }
-            *b -= factor * known;
+        }
+        Self { n, blocks }
+    }
+
+    /// The product with `x` (n) added to `base` (n), into `to` (n); terms in the order of the columns.
+    pub fn add_product(&self, base: &[f64], x: &[f64], to: &mut [f64]) {
+        compiled(Product { columns: self, base, x, to });
+    }
+}
+
+struct Product<'a> {
+    columns: &'a Columns,
+    base: &'a [f64],
+    x: &'a [f64],
+    to: &'a mut [f64],
+}
+
+impl Loops for Product<'_> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        let width = blocks_of(self.columns.n);
+        // rows in blocks: the columns pass by, each block's sums stay in a vector
+        for (k, (to, base)) in self.to.chunks_mut(BLOCK).zip(self.base.chunks(BLOCK)).enumerate() {
+            let mut sum = [0.0; BLOCK];
+            for (column, x) in self.columns.blocks.chunks_exact(width.max(1)).zip(self.x) {
+                add_scaled(std::slice::from_mut(&mut sum), *x, std::slice::from_ref(&column[k]));
+            }
+            for ((to, base), sum) in to.iter_mut().zip(base).zip(sum) {
+                *to = base + sum;
+            }
         }
     }
-    for k in (0..n).rev() {
-        let row = &matrix[k * n + k..(k + 1) * n];
-        let known: f64 = row[1..].iter().zip(&right[k + 1..]).map(|(a, x)| a * x).sum();
-        right[k] = (right[k] - known) / row[0];
+}
+
+/// Room for a linear system A x = b.
+#[derive(Clone, Debug, Default)]
+pub struct LinearSystem {
+    n: usize,
+    /// Rows of A, each followed by its b, in whole blocks.
+    rows: Vec<Block>,
+}
+
+impl LinearSystem {
+    /// For `n` unknowns.
+    pub fn new(n: usize) -> Self {
+        Self { n, rows: vec![[0.0; BLOCK]; n * blocks_of(n + 1)] }
     }
-    true
+
+    /// I - diag(slope) N, whose rows are `near` (n, n), and the right-hand side.
+    pub fn set_feedback(&mut self, slope: impl Iterator<Item = f64>, near: &[f64], right: &[f64]) {
+        let n = self.n;
+        let rows = self.rows.chunks_exact_mut(blocks_of(n + 1)).map(<[Block]>::as_flattened_mut);
+        for (i, (((row, slope), near), right)) in
+            rows.zip(slope).zip(near.chunks_exact(n.max(1))).zip(right).enumerate()
+        {
+            for (a, near) in row.iter_mut().zip(near) {
+                *a = -slope * near;
+            }
+            row[i] += 1.0;
+            row[n] = *right;
+        }
+    }
+
+    /// Solves by elimination with partial pivoting into `x` (n); what was set is used up.
+    ///
+    /// Returns whether every pivot differs from zero; otherwise `x` holds nothing of use.
+    pub fn solve(&mut self, x: &mut [f64]) -> bool {
+        debug_assert_eq!(x.len(), self.n);
+        compiled(Elimination { system: self, x })
+    }
+}
+
+struct Elimination<'a> {
+    system: &'a mut LinearSystem,
+    x: &'a mut [f64],
+}
+
+impl Loops for Elimination<'_> {
+    type Output = bool;
+    #[inline(always)]
+    fn run(self) -> bool {
+        let LinearSystem { n, rows } = self.system;
+        let (n, width) = (*n, blocks_of(*n + 1));
+        for k in 0..n {
+            let (block, lane) = (k / BLOCK, k % BLOCK);
+            let (mut pivot, mut size) = (k, rows[k * width + block][lane].abs());
+            for row in k + 1..n {
+                let other = rows[row * width + block][lane].abs();
+                if other > size {
+                    (pivot, size) = (row, other);
+                }
+            }
+            if rows[pivot * width + block][lane] == 0.0 {
+                return false;
+            }
+            let (upper, lower) = rows.split_at_mut((k + 1) * width);
+            let first = &mut upper[k * width + block..];
+            if pivot != k {
+                first.swap_with_slice(&mut lower[(pivot - k - 1) * width + block..][..width - block]);
+            }
+            let inverse = 1.0 / first[0][lane];
+            // what lies left of the pivot in its block is no part of the matrix any more
+            for row in lower.chunks_exact_mut(width) {
+                let factor = row[block][lane] * inverse;
+                add_scaled(&mut row[block..], -factor, first);
+            }
+        }
+        for k in (0..n).rev() {
+            let row = rows[k * width..(k + 1) * width].as_flattened();
+            let known: f64 = row[k + 1..n].iter().zip(&self.x[k + 1..]).map(|(a, x)| a * x).sum();
+            self.x[k] = (row[n] - known) / row[k];
+        }
+        true
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    /// Numbers of a fixed pseudo-random sequence.
+    fn numbers(n: usize) -> Vec<f64> {
+        let mut seed = 1u64;
+        let mut next = || {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            (seed >> 40) as f64 / 8_388_608.0 - 1.0
+        };
+        (0..n).map(|_| next()).collect()
+    }
+
+    fn times(matrix: &[f64], x: &[f64]) -> Vec<f64> {
+        matrix.chunks(x.len()).map(|row| row.iter().zip(x).map(|(a, x)| a * x).sum()).collect()
+    }
+
+    /// A of the system whose rows are I - diag(1) `near`.
+    fn solved(near: &[f64], right: &[f64]) -> Option<Vec<f64>> {
+        let n = right.len();
+        let (mut system, mut x) = (LinearSystem::new(n), vec![0.0; n]);
+        system.set_feedback(std::iter::repeat(1.0), near, right);
+        system.solve(&mut x).then_some(x)
+    }
+
     #[test]
     fn systems_that_need_pivots_are_solved() {
-        // A of a fixed pseudo-random sequence, zeros on the diagonal: without pivoting the first step divides by zero
-        for n in [1, 2, 5, 20, 33] {
-            let mut seed = 1u64;
-            let mut next = || {
-                seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-                (seed >> 40) as f64 / 8_388_608.0 - 1.0
-            };
-            let mut matrix: Vec<f64> = (0..n * n).map(|_| next()).collect();
+        // zeros on the diagonal: without pivoting the first step divides by zero
+        for n in [1, 2, 5, 7, 8, 20, 33] {
+            let mut near = numbers(n * n);
             if n > 1 {
-                (0..n).for_each(|i| matrix[i * n + i] = 0.0);
+                (0..n).for_each(|i| near[i * n + i] = 1.0);
             }
-            let exact: Vec<f64> = (0..n).map(|_| next()).collect();
-            let mut right: Vec<f64> =
-                matrix.chunks(n).map(|row| row.iter().zip(&exact).map(|(a, x)| a * x).sum()).collect();
-            assert!(solve_in_place(&mut matrix, &mut right));
-            for (x, e) in right.iter().zip(&exact) {
+            let mut matrix: Vec<f64> = near.iter().map(|v| -v).collect();
+            (0..n).for_each(|i| matrix[i * n + i] += 1.0);
+            let exact = numbers(n);
+            let x = solved(&near, &times(&matrix, &exact)).unwrap();
+            for (x, e) in x.iter().zip(&exact) {
                 assert!((x - e).abs() < 1e-11, "{n}: {x} {e}");
             }
         }
@@ -65,6 +199,16 @@ mod tests {
 
     #[test]
     fn a_singular_system_is_refused() {
-        assert!(!solve_in_place(&mut [1.0, 2.0, 2.0, 4.0], &mut [1.0, 1.0]));
+        assert_eq!(solved(&[0.0, -2.0, -2.0, -3.0], &[1.0, 1.0]), None);
+    }
+
+    #[test]
+    fn products_keep_the_order_of_their_terms() {
+        for n in [1, 8, 20, 33] {
+            let (matrix, x) = (numbers(n * n), numbers(n));
+            let mut to = vec![0.0; n];
+            Columns::new(&matrix, n).add_product(&vec![0.0; n], &x, &mut to);
+            assert_eq!(to, times(&matrix, &x));
+        }
     }
 }

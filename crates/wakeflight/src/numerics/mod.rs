@@ -1,4 +1,5 @@
 //! Scalars and duals, frames and vectors, tables, small linear systems, wide vectors and their instruction set.
+pub mod compiled;
 pub mod elliptic;
 pub mod four;
 pub mod fourier;

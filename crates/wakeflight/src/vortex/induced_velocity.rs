@@ -1,13 +1,17 @@
 //! Velocity induced by many straight segments at many points.
 
 use super::core::{Core, CoreDistance};
-use super::dispatch::run;
+use super::dispatch::{OverLanes, run};
 use super::kernel::Sum;
+use super::lanes::Roots;
 use super::models::{ForModel, Model, for_core};
+use super::single;
 use super::sources::{Group, Part};
 use super::strands::Strands;
 use super::threads::share;
 use crate::numerics::instruction_set::InstructionSet;
+use pulp::Simd;
+use std::marker::PhantomData;
 
 /// Straight segments from `start` to `end`, one entry each.
 #[derive(Clone, Debug, Default)]
@@ -148,6 +152,63 @@ pub(super) fn add(
 /// Same bits for any number of threads, and for any points beside a point.
 pub fn add_groups_velocity(groups: &mut [Group<'_>], core: Core, core_distance: CoreDistance) {
     for_core(core, core_distance, Direct { groups, instruction_set: InstructionSet::in_use() });
+}
+
+/// As [`add_groups_velocity`], for one group and by the calling thread alone; in single precision, with the core of Vatistas n = 2,
+/// where its sources are packed for that.
+pub(crate) fn add_alone(group: &mut Group<'_>, core: Core, core_distance: CoreDistance) {
+    let is_single = group.is_single();
+    let Group { points, sources, velocity } = group;
+    // a piece of work is not shared
+    for (points, velocity) in points.chunks(CHUNK).zip(velocity.chunks_mut(CHUNK)) {
+        let mut piece = [Group { points, sources, velocity }];
+        if is_single {
+            single::add_groups_velocity(&mut piece, core_distance);
+        } else {
+            add_groups_velocity(&mut piece, core, core_distance);
+        }
+    }
+}
+
+/// Adds what each of the `parts` induces at the points by itself to its rows of `velocity` (n_parts, n_points); by the calling
+/// thread alone.
+pub fn add_each_velocity(
+    points: &[[f64; 3]],
+    parts: &[Part<'_>],
+    core: Core,
+    core_distance: CoreDistance,
+    velocity: &mut [[f64; 3]],
+) {
+    debug_assert_eq!(velocity.len(), parts.len() * points.len());
+    for_core(core, core_distance, Each { points, parts, velocity });
+}
+
+/// The sums of some parts, each by itself: one call into wide code for all of them.
+struct Each<'a> {
+    points: &'a [[f64; 3]],
+    parts: &'a [Part<'a>],
+    velocity: &'a mut [[f64; 3]],
+}
+
+impl ForModel for Each<'_> {
+    fn run<M: Model, const TO_SEGMENT: bool>(self) {
+        run(EachSum::<M, TO_SEGMENT> { each: self, model: PhantomData }, InstructionSet::in_use());
+    }
+}
+
+struct EachSum<'a, M, const TO_SEGMENT: bool> {
+    each: Each<'a>,
+    model: PhantomData<M>,
+}
+
+impl<M: Model, const TO_SEGMENT: bool> OverLanes for EachSum<'_, M, TO_SEGMENT> {
+    #[inline(always)]
+    fn run<S: Simd, R: Roots<S>>(self, simd: S, roots: R) {
+        let Each { points, parts, velocity } = self.each;
+        for (part, velocity) in parts.iter().zip(velocity.chunks_exact_mut(points.len().max(1))) {
+            Sum::<M, TO_SEGMENT>::new(points, std::slice::from_ref(part), velocity).run(simd, roots);
+        }
+    }
 }
 
 /// The sum of every segment at every point.

@@ -48,6 +48,11 @@ impl Sources {
         self.strands.push(start, end, circulation, core_radius, false);
     }
 
+    /// Becomes a copy of `other` without cores below `floor` [m]: the bits of its segments appended with the larger of the two.
+    pub fn copy_floored(&mut self, other: &Self, floor: f64) {
+        self.strands.copy_floored(&other.strands, floor);
+    }
+
     /// The place after the last segment; a part may begin or end here.
     pub fn mark(&mut self) -> Mark {
         self.strands.cut();

@@ -143,4 +143,19 @@ impl Strands {
             end_guard: END_GUARD * length_sq,
         });
     }
+
+    /// Becomes a copy of `other` without cores below `floor` [m].
+    pub fn copy_floored(&mut self, other: &Self, floor: f64) {
+        let floor_sq = floor * floor;
+        self.strands.clone_from(&other.strands);
+        self.pieces.clone_from(&other.pieces);
+        self.single.copy_floored(&other.single, floor);
+        (self.n_pieces, self.in_double, self.end) = (other.n_pieces, other.in_double, other.end);
+        self.least_core_sq = other.least_core_sq.max(floor_sq);
+        for piece in &mut self.pieces {
+            piece.core_sq = piece.core_sq.max(floor_sq);
+            piece.area = piece.core_sq * piece.length_sq;
+            piece.area_sq = piece.area * piece.area;
+        }
+    }
 }

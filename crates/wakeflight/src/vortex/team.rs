@@ -9,8 +9,8 @@
 
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
-use std::sync::atomic::{AtomicPtr, AtomicU64, AtomicUsize, Ordering};
-use std::sync::{Arc, Condvar, Mutex, PoisonError, TryLockError};
+use std::sync::atomic::{AtomicBool, AtomicPtr, AtomicU64, AtomicUsize, Ordering};
+use std::sync::{Arc, Condvar, Mutex, PoisonError, TryLockError, Weak};
 use std::thread::{Builder, yield_now};
 use std::time::{Duration, Instant};
 
@@ -27,6 +27,12 @@ const ONE_WORK: u64 = 1 << 17;
 /// Work of this number does not come: helpers end.
 const END: u64 = u64::MAX;
 
+/// Work in pieces that nobody waits for: helpers do some of it while there is nothing else to do.
+pub(crate) trait Errand: Send + Sync {
+    /// Does a piece; false where none is left.
+    fn piece(&self) -> bool;
+}
+
 /// What every helper does until nothing is left.
 type Work<'a> = &'a (dyn Fn() + Sync + 'a);
 
@@ -34,6 +40,9 @@ struct Shared {
     state: AtomicU64,
     /// Where the caller keeps its `Work`; valid while the state is open or a helper is at work.
     work: AtomicPtr<()>,
+    /// What helpers do beside, and whether there is any.
+    errand: Mutex<Option<Weak<dyn Errand>>>,
+    has_errand: AtomicBool,
     asleep: AtomicUsize,
     bed: Mutex<()>,
     wake: Condvar,
@@ -54,6 +63,8 @@ impl Team {
         let shared = Arc::new(Shared {
             state: AtomicU64::new(0),
             work: AtomicPtr::new(std::ptr::null_mut()),
+            errand: Mutex::new(None),
+            has_errand: AtomicBool::new(false),
             asleep: AtomicUsize::new(0),
             bed: Mutex::new(()),
             wake: Condvar::new(),
@@ -72,6 +83,15 @@ impl Team {
     /// Number of helpers asked for.
     pub fn n_helpers(&self) -> usize {
         self.n_helpers
+    }
+
+    /// Leaves `errand` to helpers that have no other work, in place of the last one.
+    pub fn offer(&self, errand: &Arc<dyn Errand>) {
+        *self.shared.errand.lock().unwrap_or_else(PoisonError::into_inner) = Some(Arc::downgrade(errand));
+        self.shared.has_errand.store(true, Ordering::SeqCst);
+        if self.shared.asleep.load(Ordering::SeqCst) > 0 {
+            self.shared.rouse();
+        }
     }
 
     /// Does `work`, here and by every helper that comes before it is done here; alone where the team has work already.
@@ -160,16 +180,41 @@ impl Shared {
         }
     }
 
+    /// Does a piece of the errand; false where there is none.
+    fn run_errand(&self) -> bool {
+        if !self.has_errand.load(Ordering::SeqCst) {
+            return false;
+        }
+        let held = self.errand.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        // who needs the errand does what is left of it, and meets what made a piece fail
+        let goes_on = held
+            .as_ref()
+            .and_then(Weak::upgrade)
+            .is_some_and(|errand| catch_unwind(AssertUnwindSafe(|| errand.piece())).unwrap_or(false));
+        if !goes_on {
+            let mut errand = self.errand.lock().unwrap_or_else(PoisonError::into_inner);
+            // another may have been offered meanwhile
+            let same = errand.as_ref().zip(held.as_ref()).is_none_or(|(now, then)| Weak::ptr_eq(now, then));
+            if same {
+                *errand = None;
+                self.has_errand.store(false, Ordering::SeqCst);
+            }
+        }
+        goes_on
+    }
+
     /// The state once it is open for other work than the `last`; none at the end.
     fn awaited(&self, last: u64) -> Option<u64> {
         let new = || {
             let state = self.state.load(Ordering::SeqCst);
             (state & OPEN != 0 && state / ONE_WORK != last).then_some(state)
         };
-        let (begun, mut looks) = (Instant::now(), 0);
+        let (mut begun, mut looks) = (Instant::now(), 0);
         loop {
             let mut found = new();
-            if found.is_none() {
+            if found.is_none() && self.run_errand() {
+                (begun, looks) = (Instant::now(), 0);
+            } else if found.is_none() {
                 looks += 1;
                 pause(looks);
                 if looks.is_multiple_of(LOOKS) && begun.elapsed() > ALERT {
@@ -177,7 +222,7 @@ impl Shared {
                     self.asleep.fetch_add(1, Ordering::SeqCst);
                     while {
                         found = new();
-                        found.is_none()
+                        found.is_none() && !self.has_errand.load(Ordering::SeqCst)
                     } {
                         bed = self.wake.wait(bed).unwrap_or_else(PoisonError::into_inner);
                     }
@@ -195,7 +240,8 @@ impl Shared {
 
 #[cfg(test)]
 mod tests {
-    use super::Team;
+    use super::{Errand, Team};
+    use std::sync::Arc;
     use std::sync::atomic::{AtomicUsize, Ordering};
     use std::time::Duration;
 
@@ -231,6 +277,40 @@ mod tests {
         });
         // every caller, and every helper that joined one
         assert!((4..=12).contains(&count.load(Ordering::Relaxed)), "{count:?}");
+    }
+
+    struct Count {
+        left: AtomicUsize,
+        done: AtomicUsize,
+    }
+
+    impl Errand for Count {
+        fn piece(&self) -> bool {
+            let mine = self.left.fetch_add(1, Ordering::Relaxed) < 50;
+            self.done.fetch_add(usize::from(mine), Ordering::Relaxed);
+            mine
+        }
+    }
+
+    #[test]
+    fn errands_are_run_beside_other_work_and_left_when_nobody_needs_them() {
+        let team = Team::new(2);
+        for sleeps in [false, true] {
+            let count = Arc::new(Count { left: AtomicUsize::new(0), done: AtomicUsize::new(0) });
+            let errand: Arc<dyn Errand> = Arc::clone(&count) as _;
+            if sleeps {
+                std::thread::sleep(Duration::from_millis(3));
+            }
+            team.offer(&errand);
+            team.run(&|| ());
+            while count.piece() {}
+            while count.done.load(Ordering::Relaxed) < 50 {
+                std::thread::yield_now();
+            }
+            assert_eq!(count.done.load(Ordering::Relaxed), 50);
+        }
+        team.offer(&(Arc::new(Count { left: AtomicUsize::new(0), done: AtomicUsize::new(0) }) as _));
+        team.run(&|| ());
     }
 
     #[test]

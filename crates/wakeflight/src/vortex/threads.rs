@@ -1,5 +1,7 @@
 //! Number of threads of the sums, and the team they form.
 
+pub(crate) use super::team::Errand;
+
 use super::team::Team;
 use std::num::NonZero;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -74,6 +76,18 @@ pub(crate) fn share<T: Send>(pieces: impl Iterator<Item = T> + Send, each: impl 
             each(piece);
         }
     });
+}
+
+/// Whether there are threads that stand by.
+pub(crate) fn stand_by() -> bool {
+    team().is_some()
+}
+
+/// Leaves `errand` to the threads that stand by, in place of the last one; whoever needs it does what they leave.
+pub(crate) fn offer(errand: &Arc<dyn Errand>) {
+    if let Some(team) = team() {
+        team.offer(errand);
+    }
 }
 
 /// Team for more than one thread, formed at first use; none where one thread is asked for.

@@ -2,7 +2,7 @@
 
 use super::continuation::{Path, Place, follow};
 use super::error::{WakeError, finite, length};
-use crate::numerics::linear::solve_in_place;
+use crate::numerics::linear::{Columns, LinearSystem};
 
 /// Most Newton iterations.
 const MAX_ITERATIONS: usize = 40;
@@ -97,6 +97,8 @@ enum Slopes {
 struct Problem<'a, F> {
     far: &'a [f64],
     near: &'a [f64],
+    /// The same, to be multiplied by.
+    columns: Columns,
     floor: &'a [f64],
     section: F,
 }
@@ -141,7 +143,13 @@ pub fn solve_circulation(
     finite("n_matrix", n_matrix)?;
     finite("gamma_start", gamma_start)?;
     finite("slope_floor", slope_floor)?;
-    let mut problem = Problem { far: lambda_far, near: n_matrix, floor: slope_floor, section: &mut section };
+    let mut problem = Problem {
+        far: lambda_far,
+        near: n_matrix,
+        columns: Columns::new(n_matrix, n),
+        floor: slope_floor,
+        section: &mut section,
+    };
     let mut start = Iterate::new(n);
     start.gamma.copy_from_slice(gamma_start);
     let (found, iterations, found_by) = problem.solve(start, tolerance);
@@ -161,10 +169,7 @@ impl<F: FnMut(&[f64], &mut [f64], &mut [f64])> Problem<'_, F> {
     /// Everything but the circulation of `at`, from its circulation.
     fn evaluate(&mut self, at: &mut Iterate) {
         let n = self.far.len();
-        for i in 0..n {
-            let row = &self.near[i * n..(i + 1) * n];
-            at.inflow[i] = self.far[i] + row.iter().zip(&at.gamma).map(|(a, g)| a * g).sum::<f64>();
-        }
+        self.columns.add_product(self.far, &at.gamma, &mut at.inflow);
         (self.section)(&at.inflow, &mut at.defect, &mut at.slope);
         let mut largest: f64 = 0.0;
         let mut usable = true;
@@ -220,7 +225,7 @@ impl<F: FnMut(&[f64], &mut [f64], &mut [f64])> Problem<'_, F> {
         let mut flat = Iterate::new(n);
         self.evaluate(&mut flat);
         let mut gamma = vec![0.0; n];
-        self.newton_step(&flat, Slopes::Clipped, &mut vec![0.0; n * n], &mut gamma).then_some(gamma)
+        self.newton_step(&flat, Slopes::Clipped, &mut LinearSystem::new(n), &mut gamma).then_some(gamma)
     }
 
     fn path_scale(&self) -> f64 {
@@ -246,21 +251,19 @@ impl<F: FnMut(&[f64], &mut [f64], &mut [f64])> Problem<'_, F> {
     }
 
     /// (I - S N)^-1 (Gamma_section - Gamma) into `step`; false where it does not exist.
-    fn newton_step(&self, here: &Iterate, slopes: Slopes, jacobian: &mut [f64], step: &mut [f64]) -> bool {
-        let n = self.far.len();
-        for i in 0..n {
-            let slope = match slopes {
-                Slopes::Exact => here.slope[i],
-                Slopes::Clipped => here.slope[i].max(self.floor[i]).min(0.0),
-            };
-            let row = &mut jacobian[i * n..(i + 1) * n];
-            for (a, near) in row.iter_mut().zip(&self.near[i * n..(i + 1) * n]) {
-                *a = -slope * near;
-            }
-            row[i] += 1.0;
-        }
-        step.copy_from_slice(&here.defect);
-        solve_in_place(jacobian, step) && step.iter().all(|v| v.is_finite())
+    fn newton_step(
+        &self,
+        here: &Iterate,
+        slopes: Slopes,
+        system: &mut LinearSystem,
+        step: &mut [f64],
+    ) -> bool {
+        let slope = here.slope.iter().zip(self.floor).map(|(slope, floor)| match slopes {
+            Slopes::Exact => *slope,
+            Slopes::Clipped => slope.max(*floor).min(0.0),
+        });
+        system.set_feedback(slope, self.near, &here.defect);
+        system.solve(step) && step.iter().all(|v| v.is_finite())
     }
 
     /// From `start` close to a solution with clipped slopes, to it with exact ones where it is as near as it seems.
@@ -286,7 +289,7 @@ impl<F: FnMut(&[f64], &mut [f64], &mut [f64])> Problem<'_, F> {
         let n = self.far.len();
         let mut best = here.clone();
         let (mut candidate, mut shorter) = (Iterate::new(n), Iterate::new(n));
-        let (mut jacobian, mut step) = (vec![0.0; n * n], vec![0.0; n]);
+        let (mut system, mut step) = (LinearSystem::new(n), vec![0.0; n]);
         let (mut iterations, mut failures) = (0, 0);
         let (most_iterations, most_failures) = match slopes {
             Slopes::Exact => (MAX_EXACT_ITERATIONS, 1),
@@ -298,7 +301,7 @@ impl<F: FnMut(&[f64], &mut [f64], &mut [f64])> Problem<'_, F> {
             && failures < most_failures
         {
             iterations += 1;
-            if !self.newton_step(&here, slopes, &mut jacobian, &mut step) {
+            if !self.newton_step(&here, slopes, &mut system, &mut step) {
                 break;
             }
             let along = |to: &mut Iterate, fraction: f64| {

@@ -13,9 +13,14 @@ use std::f64::consts::TAU;
 /// Least descent of the far wake in a revolution, over R: a wake that stays at the rotor has no such end.
 const LEAST_PITCH: f64 = 0.05;
 
+/// Whether the options ask for the cylinder.
+pub(crate) fn has_cylinder(options: &WakeOptions) -> bool {
+    options.far_wake == FarWake::Cylinder
+}
+
 /// The cylinder that goes on where the tip vortices, one a blade, end; none unless the options ask for it.
 pub(crate) fn far_cylinder(options: &WakeOptions, tips: &Filaments) -> Option<VortexCylinder> {
-    if options.far_wake != FarWake::Cylinder {
+    if !has_cylinder(options) {
         return None;
     }
     let (n, turn) = (tips.n_segments, options.steps_per_revolution());

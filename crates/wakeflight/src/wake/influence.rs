@@ -2,8 +2,8 @@
 
 use super::choices::CoreDistance;
 use crate::vortex::core::Core;
-use crate::vortex::induced_velocity::add_groups_velocity;
-use crate::vortex::sources::{Group, Sources};
+use crate::vortex::induced_velocity::add_each_velocity;
+use crate::vortex::sources::{Part, Sources};
 
 /// Velocity along -`up` at the control points per unit circulation of each element, row-major (n, n) [1/m].
 ///
@@ -34,14 +34,12 @@ pub fn influence(
             marks.push(sources.mark());
         }
     }
+    let parts: Vec<Part<'_>> = marks.windows(2).map(|ends| sources.part(ends[0], ends[1])).collect();
+    let mut velocity = vec![[0.0; 3]; parts.len() * n];
+    add_each_velocity(control, &parts, Core::Rankine, CoreDistance::Line.into(), &mut velocity);
     let mut matrix = vec![0.0; n * n];
-    let mut velocity = vec![[0.0; 3]; n];
-    for (line, ends) in marks.windows(2).enumerate() {
-        velocity.fill([0.0; 3]);
-        let part = [sources.part(ends[0], ends[1])];
-        let mut groups = [Group { points: control, sources: &part, velocity: &mut velocity }];
-        add_groups_velocity(&mut groups, Core::Rankine, CoreDistance::Line.into());
-        for (row, v) in matrix.chunks_exact_mut(n).zip(&velocity) {
+    for (line, velocity) in velocity.chunks_exact(n.max(1)).enumerate() {
+        for (row, v) in matrix.chunks_exact_mut(n.max(1)).zip(velocity) {
             let w = -(v[0] * up[0] + v[1] * up[1] + v[2] * up[2]);
             match line.checked_sub(trailers.len()) {
                 Some(bound) => row[bound] += w,

@@ -2,6 +2,7 @@
 
 use super::instant::RotorInstant;
 use super::options::WakeOptions;
+use super::vectors::difference;
 
 /// Smallest distance between a blade's span (root to tip) and a tip-vortex segment, over the segment's core radius.
 ///
@@ -12,30 +13,68 @@ pub fn miss_distance_in_cores(options: &WakeOptions, instant: &RotorInstant) -> 
     for blade in 0..options.rotor.n_blades {
         // stations lie on the line of a rigid blade: its two ends are the whole span
         let ends = [instant.edge[blade * (n + 1)], instant.edge[blade * (n + 1) + n]];
-        let (low, high) = (ends[0][2].min(ends[1][2]), ends[0][2].max(ends[1][2]));
+        let span = Span::new(ends);
         for other in 0..options.rotor.n_blades {
             let filament = (other + 1) * n_t - 1;
             let first = if other == blade { options.near_wake_markers().max(1) } else { 0 };
-            for k in first..free.n_segments {
-                let m = free.marker(filament, k);
-                let (a, b) = (free.position[m], free.position[m + 1]);
-                let core = free.core_squared[filament * free.n_segments + k].sqrt();
-                // far above or below: no need to look closer
-                let gap = (a[2].min(b[2]) - high).max(low - a[2].max(b[2]));
-                if gap < smallest * core {
-                    smallest = smallest.min(segment_distance([a, b], ends) / core);
+            let nodes = &free.position[free.marker(filament, first)..=free.marker(filament, free.n_segments)];
+            let cores = &free.core_squared[filament * free.n_segments + first..];
+            let mut from = span.place(nodes[0]);
+            for (ab, core_squared) in nodes.windows(2).zip(cores) {
+                let to = span.place(ab[1]);
+                // far away: no need to look closer
+                if SHORTENED * span.gap_squared(from, to) < smallest * smallest * core_squared {
+                    smallest = smallest.min(segment_distance([ab[0], ab[1]], ends) / core_squared.sqrt());
                 }
+                from = to;
             }
         }
     }
     smallest
 }
 
+/// Share of the square of a gap that rounding leaves at least.
+const SHORTENED: f64 = 1.0 - 1e-9;
+
+/// The span of a blade and axes along and across it.
+struct Span {
+    root: [f64; 3],
+    length: f64,
+    axes: [[f64; 3]; 3],
+}
+
+impl Span {
+    fn new([root, tip]: [[f64; 3]; 2]) -> Self {
+        let along = difference(tip, root);
+        let length = dot(along, along).sqrt();
+        let axis = along.map(|x| x / length);
+        let level = axis[0].hypot(axis[1]);
+        let across = if level > 0.0 { [-axis[1] / level, axis[0] / level, 0.0] } else { [0.0, 1.0, 0.0] };
+        let up = [-axis[2] * across[1], axis[2] * across[0], axis[0] * across[1] - axis[1] * across[0]];
+        Self { root, length, axes: [axis, across, up] }
+    }
+
+    /// Coordinates of a point along the axes.
+    fn place(&self, point: [f64; 3]) -> [f64; 3] {
+        let from_root = difference(point, self.root);
+        self.axes.map(|axis| dot(axis, from_root))
+    }
+
+    /// Square of the distance of the span from the box about a segment between two places: no more than from the segment.
+    fn gap_squared(&self, a: [f64; 3], b: [f64; 3]) -> f64 {
+        let beyond = |c: usize, end: f64| (a[c].min(b[c]) - end).max(-a[c].max(b[c])).max(0.0);
+        let (along, across, up) = (beyond(0, self.length), beyond(1, 0.0), beyond(2, 0.0));
+        along * along + across * across + up * up
+    }
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
 /// Smallest distance between two straight segments [m].
 fn segment_distance(p: [[f64; 3]; 2], q: [[f64; 3]; 2]) -> f64 {
-    let minus = |a: [f64; 3], b: [f64; 3]| [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
-    let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    let (u, v, w) = (minus(p[1], p[0]), minus(q[1], q[0]), minus(p[0], q[0]));
+    let (u, v, w) = (difference(p[1], p[0]), difference(q[1], q[0]), difference(p[0], q[0]));
     let (uu, uv, vv, uw, vw) = (dot(u, u), dot(u, v), dot(v, v), dot(u, w), dot(v, w));
     let share = |numerator: f64, squared: f64| {
         if squared > 0.0 { (numerator / squared).clamp(0.0, 1.0) } else { 0.0 }

@@ -18,6 +18,7 @@ pub mod initial;
 pub mod instant;
 pub mod lattice;
 pub mod lifting_surface;
+mod marker_velocity;
 pub mod miss_distance;
 pub mod motion;
 pub mod near_wake;

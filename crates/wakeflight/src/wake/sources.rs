@@ -8,6 +8,7 @@ use super::options::WakeOptions;
 use super::sink::{Above, Sink, Viewer};
 use crate::vortex::induced_velocity::Segments;
 use crate::vortex::sources::{Mark, Packing, Part, Sources};
+use crate::vortex::threads::share;
 
 /// What trails, what is shed, what an inboard sheet holds and what is bound: in this order, each blade by blade.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -109,24 +110,20 @@ impl WakeSources {
     /// Packs an instant; `for_stations`: also what the blades see.
     pub fn pack(&mut self, options: &WakeOptions, instant: &RotorInstant, for_stations: bool) {
         self.n_blades = options.rotor.n_blades;
-        pack_all(&mut self.all, &mut self.marks, options, instant, 0.0);
+        let Self { all, marks, own, own_marks, .. } = self;
         if !for_stations {
-            return;
+            return pack_all(all, marks, options, instant);
         }
         let floor = options.station_core_floor * options.rotor.chord;
+        let work: [Box<dyn FnOnce() + Send + '_>; 2] = [
+            Box::new(|| pack_all(all, marks, options, instant)),
+            Box::new(|| pack_own(own, own_marks, options, instant, floor)),
+        ];
+        share(work.into_iter(), |pack| pack());
         self.is_floored = self.all.least_core() < floor;
         if self.is_floored {
-            pack_all(&mut self.floored, &mut self.marks, options, instant, floor);
+            self.floored.copy_floored(&self.all, floor);
         }
-        self.own.clear(options.packing(false));
-        self.own_marks.clear();
-        for blade in 0..options.rotor.n_blades {
-            for kind in KINDS {
-                self.own_marks.push(self.own.mark());
-                push_kind(&mut self.own, options, instant, kind, blade, true, floor);
-            }
-        }
-        self.own_marks.push(self.own.mark());
     }
 
     /// Everything, as markers see it.
@@ -155,17 +152,30 @@ impl WakeSources {
     }
 }
 
-fn pack_all(
+/// What every blade sees of its own wake.
+fn pack_own(
     to: &mut Sources,
     marks: &mut Vec<Mark>,
     options: &WakeOptions,
     instant: &RotorInstant,
     floor: f64,
 ) {
-    push_all(to, marks, options, instant, floor, options.packing(false));
+    to.clear(options.packing(false));
+    marks.clear();
+    for blade in 0..options.rotor.n_blades {
+        for kind in KINDS {
+            marks.push(to.mark());
+            push_kind(to, options, instant, kind, blade, true, floor);
+        }
+    }
+    marks.push(to.mark());
+}
+
+fn pack_all(to: &mut Sources, marks: &mut Vec<Mark>, options: &WakeOptions, instant: &RotorInstant) {
+    push_all(to, marks, options, instant, options.packing(false));
     let (n_markers, n_segments) = (instant.free.position.len(), to.whole().len());
     if options.precision == Precision::Single && options.method().tree(n_markers, n_segments).is_some() {
-        push_all(to, marks, options, instant, floor, options.packing(true));
+        push_all(to, marks, options, instant, options.packing(true));
     }
 }
 
@@ -174,7 +184,6 @@ fn push_all(
     marks: &mut Vec<Mark>,
     options: &WakeOptions,
     instant: &RotorInstant,
-    floor: f64,
     packing: Packing,
 ) {
     to.clear(packing);
@@ -182,7 +191,7 @@ fn push_all(
     for kind in KINDS {
         for blade in 0..options.rotor.n_blades {
             marks.push(to.mark());
-            push_kind(to, options, instant, kind, blade, false, floor);
+            push_kind(to, options, instant, kind, blade, false, 0.0);
         }
     }
     marks.push(to.mark());

@@ -6,12 +6,15 @@ use super::far_wake;
 use super::geometry::BladeGrid;
 use super::ground::Plane;
 use super::instant::RotorInstant;
+use super::marker_velocity::MarkerVelocity;
 use super::motion::{BladeState, HubMotion};
 use super::options::{MarchingOptions, WakeOptions};
 use super::relaxation::{RelaxationWake, tip_rows};
 use super::stencils::{Cell, corrector_velocity, predicted_corner, unknown_corner};
 use super::vectors::difference;
-use super::velocity_field::{FieldWork, InducedVelocity, Induction, Wanted, field_at, point_velocity};
+use super::velocity_field::{
+    FieldWork, InducedVelocity, Induction, Wanted, field_at, field_before_step, point_velocity,
+};
 use std::f64::consts::TAU;
 
 mod level;
@@ -49,9 +52,8 @@ pub struct TimeMarchingWake<F: InducedVelocity = Induction> {
     levels: [Vec<[f64; 3]>; 3],
     steps: u64,
     evaluations: u64,
-    /// Velocity of the markers at the present level [m/s], where it is known.
-    velocity: Vec<[f64; 3]>,
-    velocity_is_known: bool,
+    /// Velocity of the markers at the present level.
+    velocity: MarkerVelocity,
     /// Time that the step takes over that of a step at the nominal speed.
     pace: f64,
     /// Whether a step has taken another time.
@@ -128,8 +130,7 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
             levels,
             steps: 0,
             evaluations: 0,
-            velocity: Vec::new(),
-            velocity_is_known: false,
+            velocity: MarkerVelocity::Unknown,
             pace: 1.0,
             uneven: false,
             ground: relaxation.ground,
@@ -174,13 +175,13 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
         blades: &[BladeState],
         circulation: &[f64],
     ) -> Result<StepReport, WakeError> {
-        let mut evaluations = self.renew_velocity(&mut work.field);
+        let (velocity, mut evaluations) = self.velocity_of_markers(&mut work.field);
         self.shift(work, &hub, blades, circulation);
         let Work { field, next, carrier, unknown, at_new } = work;
-        let (options, own, velocity) = (&self.options, self.own, &self.velocity);
+        let (options, own) = (&self.options, self.own);
 
         let step = options.delta_psi() / options.rotor.omega * self.pace;
-        far_wake::carry(options, &mut next.far, &self.instant.free, velocity, &self.hub, step);
+        far_wake::carry(options, &mut next.far, &self.instant.free, &velocity, &self.hub, step);
         let old = |i: usize| [velocity[i], velocity[i + 1]];
 
         // predictor: both ends of the segment at the old level
@@ -217,10 +218,10 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
         std::mem::swap(&mut self.instant, next);
         std::mem::swap(&mut self.carrier, carrier);
         // what the last evaluation saw was the predicted wake
-        self.velocity_is_known = self.own.evaluation == Evaluation::Pec;
-        if self.velocity_is_known {
-            std::mem::swap(&mut self.velocity, at_new);
-        }
+        self.velocity = match self.own.evaluation {
+            Evaluation::Pec => MarkerVelocity::Known(std::mem::take(at_new)),
+            Evaluation::Pece => MarkerVelocity::Unknown,
+        };
         self.hub = hub;
         self.blades.copy_from_slice(blades);
         self.steps += 1;
@@ -228,14 +229,15 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
         Ok(StepReport { max_displacement, odd_even, segment_evaluations: evaluations })
     }
 
-    /// Velocity of the markers at the present level; the number of segment evaluations.
-    fn renew_velocity(&mut self, work: &mut FieldWork) -> u64 {
-        if self.velocity_is_known {
-            return 0;
+    /// Velocity of the markers at the present level [m/s]; the number of segment evaluations that it takes now.
+    fn velocity_of_markers(&self, work: &mut FieldWork) -> (Vec<[f64; 3]>, u64) {
+        if let Some(known) = self.velocity.found() {
+            return (known, 0);
         }
-        self.velocity_is_known = true;
-        let wanted = Wanted { markers: Some((&self.hub, &mut self.velocity)), ..Wanted::default() };
-        field_at(&self.field, &self.options, &self.instant, work, wanted)
+        let mut velocity = Vec::new();
+        let wanted = Wanted { markers: Some((&self.hub, &mut velocity)), ..Wanted::default() };
+        let evaluations = field_at(&self.field, &self.options, &self.instant, work, wanted);
+        (velocity, evaluations)
     }
 
     /// RMS of the second difference in time of the inner markers along their characteristics, over R.
@@ -321,7 +323,9 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
     pub fn set_circulation(&mut self, circulation: &[f64]) -> Result<(), WakeError> {
         length("circulation", circulation.len(), self.instant.circulation.len())?;
         finite("circulation", circulation)?;
-        self.velocity_is_known &= self.own.evaluation == Evaluation::Pec;
+        if self.own.evaluation == Evaluation::Pece {
+            self.velocity = MarkerVelocity::Unknown;
+        }
         self.instant.circulation.copy_from_slice(circulation);
         for (blade, gamma) in circulation.chunks_exact(self.options.n_stations).enumerate() {
             self.instant.release(&self.options, &self.grid, blade, gamma);
@@ -341,10 +345,14 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
     ///
     /// For the last call before a step: [`set_circulation`](Self::set_circulation) makes that velocity void.
     pub fn inflow_far_before_step(&mut self, inflow: &mut Vec<f64>) {
-        let markers = (!self.velocity_is_known).then_some((&self.hub, &mut self.velocity));
-        self.velocity_is_known = true;
-        let wanted = Wanted { markers, stations: Some(inflow) };
-        self.evaluations += field_at(&self.field, &self.options, &self.instant, &mut self.work.field, wanted);
+        let (at, work) = ((&self.instant, &self.hub), &mut self.work.field);
+        if matches!(self.velocity, MarkerVelocity::Unknown) {
+            let (velocity, evaluations) = field_before_step(&self.field, &self.options, at, work, inflow);
+            (self.velocity, self.evaluations) = (velocity, self.evaluations + evaluations);
+            return;
+        }
+        let wanted = Wanted { stations: Some(inflow), ..Wanted::default() };
+        self.evaluations += field_at(&self.field, &self.options, &self.instant, work, wanted);
     }
 
     /// Velocity induced at `points` [m/s, `_h`] by rotor and wake; near-wake trailers not included.

@@ -2,10 +2,11 @@
 
 use super::choices::{CoreDistance, Precision};
 use super::error::{WakeError, finite};
-use super::far_cylinder::far_cylinder;
+use super::far_cylinder::{far_cylinder, has_cylinder};
 use super::filament::Filaments;
 use super::ground::Plane;
 use super::instant::RotorInstant;
+use super::marker_velocity::{Coming, MarkerVelocity};
 use super::motion::HubMotion;
 use super::options::WakeOptions;
 use super::sources::{SEEN, WakeSources};
@@ -13,17 +14,24 @@ use super::vectors::add_to;
 use crate::vortex::core::Core;
 use crate::vortex::curvature::curvature_velocity;
 use crate::vortex::cylinder::VortexCylinder;
-use crate::vortex::induced_velocity::add_groups_velocity;
+use crate::vortex::induced_velocity::{add_alone, add_groups_velocity};
 use crate::vortex::single;
 use crate::vortex::sources::{Group, Part};
+use crate::vortex::threads::stand_by;
 use crate::vortex::tree::{Method, add_part_velocity_by};
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 /// Where induced velocity comes from.
 pub trait InducedVelocity: Clone + Send + Sync {
     /// Adds to the velocity of every group what is induced at its points [m/s, `_h`], given the vortices it sees;
     /// the number of segment evaluations.
     fn add(&self, groups: &mut [Group<'_>]) -> u64;
+
+    /// The vortices, where a sum of so many segments at so many points is direct: what other threads can do piece by piece.
+    fn in_pieces(&self, _n_points: usize, _n_segments: usize) -> Option<VortexSegments> {
+        None
+    }
 
     /// Adds what the far wake's cylinder induces; nothing where the velocity is prescribed.
     fn add_far(&self, _groups: &mut [Group<'_>], _cylinder: &VortexCylinder) {}
@@ -59,6 +67,11 @@ impl VortexSegments {
             method: options.method(),
         }
     }
+
+    /// Adds to the velocity of one group what is induced at its points, directly and by this thread alone.
+    pub(super) fn add_alone(&self, group: &mut Group<'_>) {
+        add_alone(group, Core::Vatistas2, self.core_distance.into());
+    }
 }
 
 impl InducedVelocity for VortexSegments {
@@ -83,6 +96,10 @@ impl InducedVelocity for VortexSegments {
             add_groups_velocity(&mut direct, core, distance);
         }
         evaluations + direct.iter().map(Group::evaluations).sum::<u64>()
+    }
+
+    fn in_pieces(&self, n_points: usize, n_segments: usize) -> Option<VortexSegments> {
+        self.method.tree(n_points, n_segments).is_none().then_some(*self)
     }
 
     fn add_far(&self, groups: &mut [Group<'_>], cylinder: &VortexCylinder) {
@@ -168,6 +185,13 @@ impl InducedVelocity for Induction {
         }
     }
 
+    fn in_pieces(&self, n_points: usize, n_segments: usize) -> Option<VortexSegments> {
+        match self {
+            Self::Vortices(vortices) => vortices.in_pieces(n_points, n_segments),
+            Self::Linear(_) => None,
+        }
+    }
+
     fn add_far(&self, groups: &mut [Group<'_>], cylinder: &VortexCylinder) {
         if let Self::Vortices(vortices) = self {
             vortices.add_far(groups, cylinder);
@@ -192,7 +216,7 @@ impl InducedVelocity for Induction {
 /// What a field at one instant is made with: the vortices packed, velocities at the stations. Kept from step to step.
 #[derive(Debug, Default)]
 pub struct FieldWork {
-    sources: WakeSources,
+    sources: Arc<WakeSources>,
     station_velocity: Vec<[f64; 3]>,
 }
 
@@ -200,6 +224,18 @@ impl Clone for FieldWork {
     /// Empty: nothing in it outlives the field.
     fn clone(&self) -> Self {
         Self::default()
+    }
+}
+
+impl FieldWork {
+    /// The vortices of an instant; room that another sum still reads is left to it.
+    fn pack(&mut self, options: &WakeOptions, instant: &RotorInstant, for_stations: bool) {
+        if Arc::get_mut(&mut self.sources).is_none() {
+            self.sources = Arc::default();
+        }
+        if let Some(sources) = Arc::get_mut(&mut self.sources) {
+            sources.pack(options, instant, for_stations);
+        }
     }
 }
 
@@ -221,9 +257,47 @@ pub fn field_at<F: InducedVelocity>(
     work: &mut FieldWork,
     wanted: Wanted<'_>,
 ) -> u64 {
+    work.pack(options, instant, wanted.stations.is_some());
+    field_of_packed(field, options, instant, work, wanted)
+}
+
+/// The inflow at the stations, and the velocity of the markers with the wind of the `hub`, which may be left to threads that stand
+/// by; the number of segment evaluations.
+pub(super) fn field_before_step<F: InducedVelocity>(
+    field: &F,
+    options: &WakeOptions,
+    (instant, hub): (&RotorInstant, &HubMotion),
+    work: &mut FieldWork,
+    inflow: &mut Vec<f64>,
+) -> (MarkerVelocity, u64) {
+    work.pack(options, instant, true);
+    let (n_points, n_segments) = (instant.free.position.len(), work.sources.whole().len());
+    let by_others = match field.in_pieces(n_points, n_segments) {
+        Some(vortices) if stand_by() && instant.ground.is_none() && !has_cylinder(options) => Some(vortices),
+        _ => None,
+    };
+    let Some(vortices) = by_others else {
+        let mut velocity = Vec::new();
+        let wanted = Wanted { markers: Some((hub, &mut velocity)), stations: Some(inflow) };
+        let evaluations = field_of_packed(field, options, instant, work, wanted);
+        return (MarkerVelocity::Known(velocity), evaluations);
+    };
+    let coming = Coming::begin(vortices, Arc::clone(&work.sources), instant, hub);
+    let wanted = Wanted { stations: Some(inflow), ..Wanted::default() };
+    let evaluations = coming.evaluations() + field_of_packed(field, options, instant, work, wanted);
+    (MarkerVelocity::Coming(coming), evaluations)
+}
+
+/// The field of the instant whose vortices are packed.
+fn field_of_packed<F: InducedVelocity>(
+    field: &F,
+    options: &WakeOptions,
+    instant: &RotorInstant,
+    work: &mut FieldWork,
+    wanted: Wanted<'_>,
+) -> u64 {
     let Wanted { mut markers, stations } = wanted;
     let FieldWork { sources, station_velocity } = work;
-    sources.pack(options, instant, stations.is_some());
     let n_seen = if stations.is_some() { options.rotor.n_blades } else { 0 };
     let seen: Vec<[Part<'_>; SEEN]> = (0..n_seen).map(|blade| sources.seen_from(blade)).collect();
     station_velocity.clear();
@@ -253,7 +327,9 @@ pub fn field_at<F: InducedVelocity>(
     }
 
     if let Some((_, velocity)) = markers {
-        add_self_induced(field, &instant.free, velocity);
+        for (m, velocity) in velocity.iter_mut().enumerate() {
+            add_self_induced(field, &instant.free, m, velocity);
+        }
     }
     if let Some(inflow) = stations {
         inflow.clear();
@@ -286,25 +362,21 @@ fn add_images<F: InducedVelocity>(
     evaluations
 }
 
-/// Adds what the markers owe to the curvature of their own filaments.
-fn add_self_induced<F: InducedVelocity>(field: &F, free: &Filaments, velocity: &mut [[f64; 3]]) {
-    for i in 0..free.n_filaments {
-        for k in 1..free.n_segments {
-            let m = free.marker(i, k);
-            let core = (0.5
-                * (free.core_squared[i * free.n_segments + k - 1]
-                    + free.core_squared[i * free.n_segments + k]))
-                .sqrt();
-            let local = field.self_induced(
-                free.position[m - 1],
-                free.position[m],
-                free.position[m + 1],
-                free.circulation[m],
-                core,
-            );
-            add_to(&mut velocity[m], local);
-        }
+/// Adds what marker `m` owes to the curvature of its own filament.
+pub(super) fn add_self_induced<F: InducedVelocity>(
+    field: &F,
+    free: &Filaments,
+    m: usize,
+    velocity: &mut [f64; 3],
+) {
+    let (i, k) = (m / (free.n_segments + 1), m % (free.n_segments + 1));
+    if k == 0 || k == free.n_segments {
+        return;
     }
+    let segment = i * free.n_segments + k;
+    let core = (0.5 * (free.core_squared[segment - 1] + free.core_squared[segment])).sqrt();
+    let [before, here, after] = [m - 1, m, m + 1].map(|m| free.position[m]);
+    add_to(velocity, field.self_induced(before, here, after, free.circulation[m], core));
 }
 
 /// Velocity induced by rotor and wake at `points` [m/s, `_h`], in double precision; bound vortices included, near-wake

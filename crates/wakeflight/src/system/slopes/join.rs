@@ -1,6 +1,7 @@
 //! Chain rule: what the blades' loads carry of the blades' own and the shared states into the shared rows.
 
 use super::{Block, Slopes};
+use crate::numerics::compiled::{Loops, compiled};
 use crate::system::instant::Instant;
 use crate::system::model::System;
 
@@ -51,18 +52,34 @@ impl Slopes {
 
 /// out = a b, or out += a b.
 fn product(a: &Block, b: &Block, out: &mut Block, add: bool) {
-    let columns = b.columns;
-    if columns == 0 {
-        return;
-    }
-    for (row, result) in out.values.chunks_exact_mut(columns).enumerate() {
-        if !add {
-            result.fill(0.0);
+    compiled(Product { a, b, out, add });
+}
+
+struct Product<'a> {
+    a: &'a Block,
+    b: &'a Block,
+    out: &'a mut Block,
+    add: bool,
+}
+
+impl Loops for Product<'_> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        let Self { a, b, out, add } = self;
+        let columns = b.columns;
+        if columns == 0 {
+            return;
         }
-        for (k, factors) in b.values.chunks_exact(columns).enumerate() {
-            let weight = a.at(row, k);
-            for (r, f) in result.iter_mut().zip(factors) {
-                *r += weight * f;
+        for (row, result) in out.values.chunks_exact_mut(columns).enumerate() {
+            if !add {
+                result.fill(0.0);
+            }
+            for (k, factors) in b.values.chunks_exact(columns).enumerate() {
+                let weight = a.at(row, k);
+                for (r, f) in result.iter_mut().zip(factors) {
+                    *r += weight * f;
+                }
             }
         }
     }

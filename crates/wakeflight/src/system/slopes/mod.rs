@@ -17,6 +17,7 @@ use super::model::System;
 use super::rotor_loads::{RotorLoads, RotorShare};
 use crate::numerics::scalar::{Dual, Real};
 use crate::numerics::wide::DIRECTIONS;
+use crate::vortex::threads::share;
 use std::ops::Range;
 
 type D = Dual<DIRECTIONS>;
@@ -242,11 +243,14 @@ impl System {
         let mut shares = Vec::with_capacity(self.rotors.len());
         let mut first = 0;
         for (r, rotor, _) in self.each_rotor() {
+            let (blades, place) = (&mut slopes.blades[first..first + rotor.n_blades], &slopes.place);
+            let mut on_hub = vec![None; rotor.n_blades];
+            share(blades.iter_mut().zip(&mut on_hub).enumerate(), |(b, (blade, on_hub))| {
+                *on_hub = Some(self.blade_slopes(at, b, blade, place));
+                self.damper_by_turn(at, b, blade, place);
+            });
             let mut loads = RotorLoads::zero();
-            for b in 0..rotor.n_blades {
-                loads.add(&self.blade_slopes(at, b, &mut slopes.blades[first + b], &slopes.place));
-                self.damper_by_turn(at, b, &mut slopes.blades[first + b], &slopes.place);
-            }
+            on_hub.iter().flatten().for_each(|blade| loads.add(blade));
             first += rotor.n_blades;
             shares
                 .push(RotorShare { loads, beta_1c: self.flap_multiblade(r, self.spin(r, at).psi, at.y)[0] });

@@ -52,6 +52,13 @@ pub(super) fn scaled(place: [f64; 3], per_unit: f64) -> [f32; 3] {
     place.map(|x| ((x * per_unit) as f32).clamp(-FARTHEST, FARTHEST))
 }
 
+/// Fourth power of a core radius over the unit of length.
+#[inline(always)]
+fn core_4(core_radius: f64, per_unit: f64) -> f32 {
+    let core = ((core_radius * per_unit) as f32).clamp(LEAST_CORE, FARTHEST);
+    (core * core) * (core * core)
+}
+
 impl SinglePart<'_> {
     /// Number of segments.
     pub(in crate::vortex) fn len(&self) -> usize {
@@ -85,15 +92,25 @@ impl SingleStrands {
         let (length, per_length) =
             if length_sq < LEAST_LENGTH_SQ { (0.0, 0.0) } else { (length, 1.0 / length) };
         let strength = (circulation / (16.0 * std::f64::consts::PI) * per_unit) as f32;
-        let core = ((core_radius * per_unit) as f32).clamp(LEAST_CORE, FARTHEST);
         self.pieces.push(SinglePiece {
             end: scaled(end, per_unit),
             direction: along.map(|a| a * per_length),
             length,
             per_length,
             strength: strength.clamp(-MOST_STRENGTH, MOST_STRENGTH),
-            core_4: (core * core) * (core * core),
+            core_4: core_4(core_radius, per_unit),
         });
+    }
+
+    /// Becomes a copy of `other` without cores below `floor` [m].
+    pub(in crate::vortex) fn copy_floored(&mut self, other: &Self, floor: f64) {
+        self.per_unit = other.per_unit;
+        self.starts.clone_from(&other.starts);
+        self.pieces.clone_from(&other.pieces);
+        let least = self.per_unit.map_or(0.0, |per_unit| core_4(floor, per_unit));
+        for piece in &mut self.pieces {
+            piece.core_4 = piece.core_4.max(least);
+        }
     }
 
     /// Those of a range of strands and of their pieces; none where nothing was packed.
