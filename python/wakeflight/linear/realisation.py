@@ -105,7 +105,7 @@ def observability(seen: np.ndarray, pole: float, count: int) -> np.ndarray:
     shifted = np.concatenate([by_function[:, 1:], np.zeros_like(by_function[:, :1])], axis=1)
     discrete = ((by_function - shifted) / np.sqrt(2.0 * pole)).reshape(n_out, -1)
     n_in = discrete.shape[1] // count
-    whole = discrete.T @ discrete
+    whole: np.ndarray = discrete.T @ discrete
     for k in range(count - 2, -1, -1):
         here, after = slice(k * n_in, (k + 1) * n_in), slice((k + 1) * n_in, None)
         whole[here, : -n_in or None] += whole[(k + 1) * n_in : (k + 2) * n_in, n_in:]
