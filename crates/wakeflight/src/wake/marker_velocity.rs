@@ -4,13 +4,17 @@
 //! to the threads that stand by, piece by piece, and whatever is left of it is done where it is asked for: the same sums, the same
 //! bits, whoever does them.
 
+use super::far_cylinder::has_cylinder;
 use super::filament::Filaments;
 use super::instant::RotorInstant;
 use super::motion::HubMotion;
+use super::options::WakeOptions;
 use super::sources::WakeSources;
-use super::velocity_field::{VortexSegments, add_self_induced};
+use super::velocity_field::{
+    FieldWork, InducedVelocity, VortexSegments, Wanted, add_self_induced, field_of_packed,
+};
 use crate::vortex::sources::Group;
-use crate::vortex::threads::{Errand, offer};
+use crate::vortex::threads::{Errand, offer, stand_by};
 use serde::{Deserialize, Serialize};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
@@ -55,6 +59,33 @@ impl MarkerVelocity {
             Self::Coming(coming) => Some(coming.found()),
         }
     }
+}
+
+/// The inflow at the stations, and the velocity of the markers with the wind of the `hub`, which may be left to threads that stand
+/// by; the number of segment evaluations.
+pub(super) fn field_before_step<F: InducedVelocity>(
+    field: &F,
+    options: &WakeOptions,
+    (instant, hub): (&RotorInstant, &HubMotion),
+    work: &mut FieldWork,
+    inflow: &mut Vec<f64>,
+) -> (MarkerVelocity, u64) {
+    work.pack(options, instant, true);
+    let (n_points, n_segments) = (instant.free.position.len(), work.sources.whole().len());
+    let by_others = match field.in_pieces(n_points, n_segments) {
+        Some(vortices) if stand_by() && instant.ground.is_none() && !has_cylinder(options) => Some(vortices),
+        _ => None,
+    };
+    let Some(vortices) = by_others else {
+        let mut velocity = Vec::new();
+        let wanted = Wanted { markers: Some((hub, &mut velocity)), stations: Some(inflow) };
+        let evaluations = field_of_packed(field, options, instant, work, wanted);
+        return (MarkerVelocity::Known(velocity), evaluations);
+    };
+    let coming = Coming::begin(vortices, Arc::clone(&work.sources), instant, hub);
+    let wanted = Wanted { stations: Some(inflow), ..Wanted::default() };
+    let evaluations = coming.evaluations() + field_of_packed(field, options, instant, work, wanted);
+    (MarkerVelocity::Coming(coming), evaluations)
 }
 
 /// A sum at all markers of an instant, under way.
@@ -127,5 +158,36 @@ impl Errand for Coming {
             *done = Some(self.summed(k));
         }
         true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::wake::geometry::BladeGrid;
+    use crate::wake::velocity_field::field_at;
+
+    #[test]
+    fn what_others_find_meanwhile_has_the_bits_of_the_field_found_at_once() {
+        let options = WakeOptions::new(3, 8.0, 1.0, 0.4, 0.5, 27.0);
+        let mut instant = RotorInstant::new(&options, &BladeGrid::new(&options));
+        for (m, position) in instant.free.position.iter_mut().enumerate() {
+            let turned = 0.17 * m as f64;
+            *position = [8.0 * turned.cos() + 0.3 * turned, 8.0 * turned.sin(), -0.1 * turned];
+        }
+        instant.free.circulation.fill(20.0);
+        let hub = HubMotion { velocity: [-30.0, 1.0, 2.0], ..HubMotion::default() };
+        let vortices = VortexSegments::new(&options);
+        let mut expected = Vec::new();
+        let wanted = Wanted { markers: Some((&hub, &mut expected)), ..Wanted::default() };
+        let evaluations = field_at(&vortices, &options, &instant, &mut FieldWork::default(), wanted);
+        let mut sources = WakeSources::default();
+        sources.pack(&options, &instant, false);
+        let coming = Coming::begin(vortices, Arc::new(sources), &instant, &hub);
+        assert_eq!(coming.evaluations(), evaluations);
+        // a copy of the wake asks too, and a snapshot
+        let velocity = MarkerVelocity::Coming(coming);
+        assert_eq!(velocity.found().as_ref(), Some(&expected));
+        assert_eq!(Option::from(velocity), Some(expected));
     }
 }

@@ -6,15 +6,13 @@ use super::far_wake;
 use super::geometry::BladeGrid;
 use super::ground::Plane;
 use super::instant::RotorInstant;
-use super::marker_velocity::MarkerVelocity;
+use super::marker_velocity::{MarkerVelocity, field_before_step};
 use super::motion::{BladeState, HubMotion};
 use super::options::{MarchingOptions, WakeOptions};
 use super::relaxation::{RelaxationWake, tip_rows};
 use super::stencils::{Cell, corrector_velocity, predicted_corner, unknown_corner};
 use super::vectors::difference;
-use super::velocity_field::{
-    FieldWork, InducedVelocity, Induction, Wanted, field_at, field_before_step, point_velocity,
-};
+use super::velocity_field::{FieldWork, InducedVelocity, Induction, Wanted, field_at, point_velocity};
 use std::f64::consts::TAU;
 
 mod level;

@@ -2,11 +2,10 @@
 
 use super::choices::{CoreDistance, Precision};
 use super::error::{WakeError, finite};
-use super::far_cylinder::{far_cylinder, has_cylinder};
+use super::far_cylinder::far_cylinder;
 use super::filament::Filaments;
 use super::ground::Plane;
 use super::instant::RotorInstant;
-use super::marker_velocity::{Coming, MarkerVelocity};
 use super::motion::HubMotion;
 use super::options::WakeOptions;
 use super::sources::{SEEN, WakeSources};
@@ -17,7 +16,6 @@ use crate::vortex::cylinder::VortexCylinder;
 use crate::vortex::induced_velocity::{add_alone, add_groups_velocity};
 use crate::vortex::single;
 use crate::vortex::sources::{Group, Part};
-use crate::vortex::threads::stand_by;
 use crate::vortex::tree::{Method, add_part_velocity_by};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -216,7 +214,7 @@ impl InducedVelocity for Induction {
 /// What a field at one instant is made with: the vortices packed, velocities at the stations. Kept from step to step.
 #[derive(Debug, Default)]
 pub struct FieldWork {
-    sources: Arc<WakeSources>,
+    pub(super) sources: Arc<WakeSources>,
     station_velocity: Vec<[f64; 3]>,
 }
 
@@ -229,7 +227,7 @@ impl Clone for FieldWork {
 
 impl FieldWork {
     /// The vortices of an instant; room that another sum still reads is left to it.
-    fn pack(&mut self, options: &WakeOptions, instant: &RotorInstant, for_stations: bool) {
+    pub(super) fn pack(&mut self, options: &WakeOptions, instant: &RotorInstant, for_stations: bool) {
         if Arc::get_mut(&mut self.sources).is_none() {
             self.sources = Arc::default();
         }
@@ -261,35 +259,8 @@ pub fn field_at<F: InducedVelocity>(
     field_of_packed(field, options, instant, work, wanted)
 }
 
-/// The inflow at the stations, and the velocity of the markers with the wind of the `hub`, which may be left to threads that stand
-/// by; the number of segment evaluations.
-pub(super) fn field_before_step<F: InducedVelocity>(
-    field: &F,
-    options: &WakeOptions,
-    (instant, hub): (&RotorInstant, &HubMotion),
-    work: &mut FieldWork,
-    inflow: &mut Vec<f64>,
-) -> (MarkerVelocity, u64) {
-    work.pack(options, instant, true);
-    let (n_points, n_segments) = (instant.free.position.len(), work.sources.whole().len());
-    let by_others = match field.in_pieces(n_points, n_segments) {
-        Some(vortices) if stand_by() && instant.ground.is_none() && !has_cylinder(options) => Some(vortices),
-        _ => None,
-    };
-    let Some(vortices) = by_others else {
-        let mut velocity = Vec::new();
-        let wanted = Wanted { markers: Some((hub, &mut velocity)), stations: Some(inflow) };
-        let evaluations = field_of_packed(field, options, instant, work, wanted);
-        return (MarkerVelocity::Known(velocity), evaluations);
-    };
-    let coming = Coming::begin(vortices, Arc::clone(&work.sources), instant, hub);
-    let wanted = Wanted { stations: Some(inflow), ..Wanted::default() };
-    let evaluations = coming.evaluations() + field_of_packed(field, options, instant, work, wanted);
-    (MarkerVelocity::Coming(coming), evaluations)
-}
-
 /// The field of the instant whose vortices are packed.
-fn field_of_packed<F: InducedVelocity>(
+pub(super) fn field_of_packed<F: InducedVelocity>(
     field: &F,
     options: &WakeOptions,
     instant: &RotorInstant,
