@@ -15,7 +15,7 @@ from .atomic import write_bytes
 from .errors import InputError
 
 MAGIC = b"WKFL-SNAPSHOT\n"
-VERSION = 2
+VERSION = 3
 
 
 @dataclass(frozen=True)
