@@ -161,7 +161,8 @@ class Means:
     def turn(self, revolution: int, problem: _core.TrimProblem, x: np.ndarray) -> np.ndarray | None:
         """March one revolution: its inflow, later at times the mean of those since the last mean, else None."""
         turns = self.turns
-        turns.append(self.march.turn(problem, x))
+        inflow, circulation = self.march.turn(problem, x)
+        turns.append((self.as_held(inflow), circulation))
         self.washes.append(self.march.wash_of_turn)
         if self.direct:
             self.inflow_map, self.circulation = turns[-1]
@@ -184,6 +185,16 @@ class Means:
         else:
             return None
         return self.inflow_map
+
+    def as_held(self, inflow: np.ndarray) -> np.ndarray:
+        """A map by azimuth as a flight has it there: in the mean of what is held over the steps before and after.
+
+        A step holds the inflow that is found where it begins, so that the disk feels it half a step of azimuth late. A map
+        that is held for several steps (update_interval) enters in the mean of the ends of each and is not late.
+        """
+        if self.model.inflow.marching.update_interval is not None:
+            return inflow
+        return 0.5 * (inflow + np.roll(inflow, 1, axis=0))
 
     def diverged(self, revolution: int, reason: ArithmeticError) -> NumericalFailure:
         """Where, and why."""
