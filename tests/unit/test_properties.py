@@ -217,7 +217,7 @@ def test_sticks_pass_through_their_corners_and_stay_between_them(steps, t):
 
 # --- geometry ------------------------------------------------------------------------------------------------------------------
 
-LAW = {"core": "vatistas2", "core_distance": "line", "method": "direct"}
+LAW = {"core": "vatistas2", "core_distance": "line", "method": "direct", "curvature_correction": False}
 
 
 def velocity(at, nodes, strength):

@@ -50,16 +50,17 @@ def test_the_closed_end_is_for_tip_vortices_in_axial_flow():
 
 
 def test_second_order_lifting_line_is_weissinger_where_tables_are_thin(two_blades):
-    # section tables of slope 2 pi without compressibility against flow tangency: sin alpha apart
-    table = hover(two_blades, "second-order", turns=3).data
+    # section tables of slope 2 pi against flow tangency: sin alpha apart; so slow that the chord is that of incompressible flow
+    slow = wf.load_rotor(two_blades).with_({"rotor.omega": "125 rpm"})
+    table = hover(slow, "second-order", turns=3).data
     tangency = wf.tunnel(
-        two_blades,
+        slow,
         collective="8 deg",
         inflow=wf.RelaxationWake(trailers="tip", azimuth_step="15 deg", n_stations=12, turns=3),
         blade_model="weissinger",
         prandtl_glauert=False,
     ).data
-    assert table.circulation.values == pytest.approx(tangency.circulation.values, rel=5e-3, abs=1e-3)
+    assert table.circulation.values == pytest.approx(tangency.circulation.values, rel=5e-3, abs=1e-4)
     assert float(table.ct) == pytest.approx(float(tangency.ct), rel=5e-3)
 
 
