@@ -20,6 +20,7 @@ from right_air import INSTANTS, REFERENCE, by_moments, wake
 
 import wakeflight as wf
 from wakeflight import _core
+from wakeflight.plotting.style import COLORS
 
 WAKES = {
     "paper": {"preset": "paper"},
@@ -30,6 +31,8 @@ WAKES = {
     "lattice, 9 trailers": {"n_trailers": 9},
     "reference": REFERENCE,
 }
+LEAST = 1e-3
+"""Errors are drawn from here on."""
 ANSWERS = {
     "hub_pitch": "∂λ0/∂C_M, 80 kt",
     "hub_roll": "∂λ1s/∂C_L, 80 kt",
@@ -64,27 +67,25 @@ def error(of: dict, reference: dict, answer: str) -> float:
 
 
 def draw(found: dict[str, dict], path: Path) -> None:
-    """Each answer's error over the cost."""
+    """Each answer's error over the cost: lattices joined by full lines, wakes of a tip vortex by broken ones."""
     reference = found["reference"]
-    figure, axes = plt.subplots(figsize=(7.2, 4.6), layout="constrained")
-    names = sorted((name for name in found if name != "reference"), key=lambda name: found[name]["evaluations"])
-    cost = [found[name]["evaluations"] for name in names]
-    for (answer, label), marker in zip(ANSWERS.items(), "osD^v", strict=True):
-        axes.loglog(
-            cost, [max(error(found[name], reference, answer), 1e-3) for name in names], marker + "-", label=label
-        )
-    axes.axvline(reference["evaluations"], color="0.5", ls=":")
-    axes.text(reference["evaluations"], 1.2e-3, "reference ", ha="right", color="0.4", fontsize=9)
-    for k, name in enumerate(names):
-        axes.annotate(name, (cost[k], 4.0), rotation=35, fontsize=8, ha="left", va="bottom", annotation_clip=False)
-        axes.axvline(cost[k], color="0.9", lw=0.8, zorder=0)
-    axes.set(
-        xlabel="evaluations of the sums in nine revolutions",
-        ylabel="error against the preset reference",
-        ylim=(1e-3, 4.0),
-    )
+    tips = [name for name in found if "preset" in WAKES[name]]
+    lattices = [name for name in found if name not in tips and name != "reference"]
+    figure, axes = plt.subplots(figsize=(8.4, 4.8), layout="constrained")
+    for (answer, label), marker, color in zip(ANSWERS.items(), "osD^v", COLORS, strict=False):
+        for names, line, face in ((lattices, "-", color), (tips, "--", "white")):
+            cost = [found[name]["evaluations"] for name in names]
+            errors = [max(error(found[name], reference, answer), LEAST) for name in names]
+            axes.loglog(cost, errors, marker + line, color=color, mfc=face, label=label if names is lattices else None)
+    for k, name in enumerate(sorted(found, key=lambda name: found[name]["evaluations"])):
+        cost = found[name]["evaluations"]
+        axes.axvline(cost, color="0.85", lw=0.8, ls=":" if name == "reference" else "-", zorder=0)
+        axes.annotate(name, (cost, (2.2, 3.4)[k % 2]), fontsize=8, ha="center", va="bottom", annotation_clip=False)
+    axes.set(xlabel="evaluations of the sums in nine revolutions", ylabel="error against the preset reference")
+    cost = [each["evaluations"] for each in found.values()]
+    axes.set(xlim=(0.75 * min(cost), 1.35 * max(cost)), ylim=(LEAST, 5.5))
     axes.grid(visible=True, axis="y", alpha=0.3)
-    axes.legend(fontsize=8, frameon=False, loc="lower left")
+    figure.legend(fontsize=8, frameon=False, loc="outside lower center", ncols=3)
     figure.savefig(path, dpi=110)
 
 
