@@ -1,5 +1,6 @@
 """Flights of an hour: memory does not grow, kills lose nothing, and the rows are those of the uncut flight."""
 
+import gc
 import os
 import signal
 import subprocess
@@ -137,3 +138,15 @@ def test_an_hour_of_flight(tmp_path):
 @pytest.mark.slow
 def test_two_minutes_of_flight_on_a_free_wake(tmp_path):
     soak(tmp_path, free=True, seconds=120.0, kills=(0.2, 0.6))
+
+
+@pytest.mark.slow
+def test_thirty_flights_in_one_process_take_no_more_memory_than_six(uh60a):
+    starts = {"dynamic": wf.trim(uh60a, inflow="dynamic"), "time-marching": wf.trim(uh60a, inflow="relaxation")}
+    seen = []
+    for k in range(30):
+        inflow, integrator = ("dynamic", "time-marching")[k % 2], ("fixed", "ida")[k // 2 % 2]
+        wf.fly(starts[inflow], wf.arrested_descent(), inflow=inflow, integrator=integrator, revolutions=3)
+        gc.collect()
+        seen.append(anonymous(os.getpid()))
+    assert seen[-1] - seen[5] < 2.0, seen

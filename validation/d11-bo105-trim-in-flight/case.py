@@ -52,6 +52,9 @@ def run(case):
             if tolerance is None:
                 hover = speed < 20.0
                 for part, label, allowed in ((hover, "below 20 kt", 0.10), (~hover, "from 20 kt", 0.12)):
+                    if not part.any():
+                        notes.append(f"{name} {label}, {model}: no trim beside what was flown.")
+                        continue
                     checks.append(
                         Check.largest(f"{name} {label}, {model}", mine[part], value[part], allowed, unit, "relative")
                     )
