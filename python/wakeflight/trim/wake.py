@@ -132,7 +132,7 @@ class WakeInTrim:
         Circulation follows the inflow in proportion, so that the mean of a circle of radius w is off its centre by the next
         order, w^2/lambda_0: no more than the inflow has to be known to.
         """
-        mean = abs(float(np.mean(self.model.at_stations(self.inflow_map) @ self.model.area_weights)))
+        mean = abs(self.model.disk_mean(self.inflow_map))
         return max(INFLOW_KNOWN, math.sqrt(INFLOW_KNOWN * mean))
 
     def mean_unrest(self) -> float:
