@@ -194,7 +194,8 @@ class Means:
         """
         if self.model.inflow.marching.update_interval is not None:
             return inflow
-        return 0.5 * (inflow + np.roll(inflow, 1, axis=0))
+        held: np.ndarray = 0.5 * (inflow + np.roll(inflow, 1, axis=0))
+        return held
 
     def diverged(self, revolution: int, reason: ArithmeticError) -> NumericalFailure:
         """Where, and why."""
