@@ -12,7 +12,6 @@ object holds something else than it is given: `Annotated[held, given]`.
 
 from __future__ import annotations
 
-import builtins
 import inspect
 import math
 import os
@@ -72,7 +71,7 @@ def checked(function: Callable[Arguments, Result]) -> Callable[Arguments, Result
 
     @cache
     def kinds() -> dict[str, Kind]:
-        hints = get_type_hints(function, localns=_Names(function.__globals__), include_extras=True)
+        hints = _hints_of(function)
         return {name: kind_of(hints[name]) for name in named if name in hints}
 
     @wraps(function)
@@ -100,15 +99,19 @@ def with_checked_init(kind: type[Made]) -> type[Made]:
     return kind
 
 
-class _Names(dict[str, Any]):
-    """Names in annotations: a module's own, else public ones of the package; what is neither may be anything."""
-
-    def __missing__(self, name: str) -> Any:
-        """A name that the module imports for type checking alone."""
-        if name in vars(builtins):
-            return vars(builtins)[name]
-        package = import_module(__package__)
-        return getattr(package, name) if name in package.__all__ else _Anything()
+def _hints_of(function: Callable[..., Any]) -> dict[str, Any]:
+    """Annotations of a function; a name that its module does not have is one of the package's public ones, or may be anything."""
+    found: dict[str, Any] = {}
+    while True:
+        try:
+            return get_type_hints(function, localns=found, include_extras=True)
+        except NameError as unknown:
+            # what a mapping would answer by itself is not asked for: from Python 3.14 on names are copied out of it first
+            if unknown.name is None or unknown.name in found:
+                raise
+            package = import_module(__package__)
+            public = unknown.name in package.__all__
+            found[unknown.name] = getattr(package, unknown.name) if public else _Anything()
 
 
 class _Anything:

@@ -226,10 +226,19 @@ def set_threads(threads: int | None) -> None:
         raise InputError(str(error)) from None
 
 
+def _is_there(path: Path) -> bool:
+    """Whether there is a file or folder; OSError where that cannot be known, which `Path.exists` tells or hides by version."""
+    try:
+        path.stat()
+    except (FileNotFoundError, NotADirectoryError):
+        return False
+    return True
+
+
 def writable(folder: Path) -> Path:
     """Refuse a folder for results that cannot be made."""
     try:
-        existing = next(each for each in (folder, *folder.absolute().parents) if each.exists())
+        existing = next(each for each in (folder, *folder.absolute().parents) if _is_there(each))
     except OSError as reason:
         # a name that no file can have, a folder that must not be looked into
         raise InputError.of(
