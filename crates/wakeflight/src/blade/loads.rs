@@ -257,7 +257,6 @@ impl Blade {
         let (airfoil, air, geometry) =
             (environment.airfoils.at(j), &environment.air, &self.stations[j].geometry);
         let thin = match inflow {
-            BladeInflow::ThreeQuarter { law, .. } => Some((law, wind)),
             BladeInflow::TwoLines { law, quarter, three_quarter } => {
                 let more = (three_quarter[j] - quarter[j]) * tip_speed;
                 Some((law, wind - carrier.up.scaled(more)))
@@ -326,7 +325,6 @@ impl Blade {
             | BladeInflow::InTime { inflow: PlainInflow::Stations(values), .. } => S::cst(values[j]),
             BladeInflow::Variable(values)
             | BladeInflow::InTime { inflow: PlainInflow::Variable(values), .. } => values[j],
-            BladeInflow::ThreeQuarter { inflow, .. } => inflow[j],
             BladeInflow::TwoLines { quarter, .. } => S::cst(quarter[j]),
             BladeInflow::Vacuum => S::zero(),
         }

@@ -3,6 +3,7 @@
 use super::aerodynamics::{Air, StationGeometry, section_flow};
 use super::kinematics::{BladeAxes, SectionMotion};
 use super::sections_in_time::{SectionsInTime, flow_of};
+use super::thin_section::ThinSection;
 use crate::airfoil::Airfoil;
 use crate::numerics::frames::Vec3;
 use crate::numerics::scalar::Real;
@@ -59,6 +60,12 @@ impl SectionWind {
         let [along, quarter_n, three_quarter_n] = self.winds(lambda);
         let flow = section_flow(airfoil, air, along, quarter_n, three_quarter_n);
         flow.cl * flow.speed * (0.5 * self.chord)
+    }
+
+    /// The same of a section that meets the air at three quarters of the chord, at the inflow there.
+    pub fn thin_circulation<S: Real>(&self, law: ThinSection, airfoil: &Airfoil, air: &Air, lambda: S) -> S {
+        let [along, _, three_quarter_n] = self.winds(lambda);
+        law.circulation(airfoil, air, self.chord, [along, three_quarter_n])
     }
 
     /// The same of station `j` among `sections` that remember.

@@ -31,13 +31,6 @@ pub enum BladeInflow<'a, S> {
     Stations(&'a [f64]),
     /// One value per station, with derivatives.
     Variable(&'a [S]),
-    /// Thin sections: one value per station at three quarters of the chord, with derivatives.
-    ThreeQuarter {
-        /// Law of the sections.
-        law: ThinSection,
-        /// Inflow.
-        inflow: &'a [S],
-    },
     /// Thin sections, held: inflow at the quarter chord turns the lift, that at three quarters makes it.
     TwoLines {
         /// Law of the sections.

@@ -58,37 +58,65 @@ impl ThinSection {
         let speed = (wind_c * wind_c + quarter_n * quarter_n + 1e-12).sqrt();
         let mach = speed / air.speed_of_sound;
 
-        // tangency and the factor are those of the air at three quarters of the chord: circulation depends on it alone
         let three_quarter_c = wind_three_quarter.dot(c);
-        let speed_there =
-            (three_quarter_c * three_quarter_c + three_quarter_n * three_quarter_n + 1e-12).sqrt();
-        let mach_there = speed_there / air.speed_of_sound;
-        let prandtl_glauert = match self.lift {
-            SectionLift::Tangency { prandtl_glauert } => prandtl_glauert,
-            SectionLift::Tables => {
-                let alpha = three_quarter_n.atan2(-three_quarter_c);
-                let (cl, cd, cm) = airfoil.coefficients(alpha, mach_there);
-                let cl = cl * speed_there / speed;
-                let flow = SectionFlow { alpha, speed, mach, cl, cd, cm };
-                return section_loads(air, station, motion, omega, [wind_c, quarter_n], &flow);
-            }
+        let there = [three_quarter_c, three_quarter_n];
+        let SectionLift::Tangency { prandtl_glauert } = self.lift else {
+            let (alpha, speed_there, (cl, cd, cm)) = from_tables(airfoil, air, there);
+            let cl = cl * speed_there / speed;
+            let flow = SectionFlow { alpha, speed, mach, cl, cd, cm };
+            return section_loads(air, station, motion, omega, [wind_c, quarter_n], &flow);
         };
-        let zero_lift = airfoil.zero_lift();
-        let (s0, c0) = zero_lift.sin_cos();
-        let normal = three_quarter_n * c0 + three_quarter_c * s0;
-        let ahead = if three_quarter_c.re() <= 0.0 { 1.0 } else { -1.0 };
-        let factor = if prandtl_glauert && mach_there.re() < FACTOR_LIMIT {
-            S::one() / (S::one() - mach_there * mach_there).sqrt()
-        } else if prandtl_glauert {
-            S::cst(1.0 / (1.0 - FACTOR_LIMIT * FACTOR_LIMIT).sqrt())
-        } else {
-            S::one()
-        };
-        let circulation = normal * factor * (PI * station.chord * ahead);
+        let (circulation, factor) = from_tangency(airfoil, air, station.chord, prandtl_glauert, there);
         let cl = circulation * 2.0 / (speed * station.chord);
-        let alpha = cl / (factor * (2.0 * PI)) + zero_lift;
+        let alpha = cl / (factor * (2.0 * PI)) + airfoil.zero_lift();
         let (_, cd, cm) = airfoil.coefficients(alpha, mach);
         let flow = SectionFlow { alpha, speed, mach, cl, cd, cm };
         section_loads(air, station, motion, omega, [wind_c, quarter_n], &flow)
     }
+
+    /// Bound circulation [m2/s] by the wind at three quarters of the chord alone: along the chord and normal to it [m/s].
+    pub fn circulation<S: Real>(&self, airfoil: &Airfoil, air: &Air, chord: f64, there: [S; 2]) -> S {
+        match self.lift {
+            SectionLift::Tangency { prandtl_glauert } => {
+                from_tangency(airfoil, air, chord, prandtl_glauert, there).0
+            }
+            SectionLift::Tables => {
+                let (_, speed, (cl, ..)) = from_tables(airfoil, air, there);
+                cl * speed * (0.5 * chord)
+            }
+        }
+    }
+}
+
+/// Speed [m/s] of a wind along and normal to the chord; the small constant keeps its derivative finite in still air.
+fn speed_of<S: Real>([along, normal]: [S; 2]) -> S {
+    (along * along + normal * normal + 1e-12).sqrt()
+}
+
+/// Angle of attack [rad], speed [m/s] and the coefficients there (cl, cd, cm).
+fn from_tables<S: Real>(airfoil: &Airfoil, air: &Air, [along, normal]: [S; 2]) -> (S, S, (S, S, S)) {
+    let (alpha, speed) = (normal.atan2(-along), speed_of([along, normal]));
+    (alpha, speed, airfoil.coefficients(alpha, speed / air.speed_of_sound))
+}
+
+/// Circulation [m2/s] by flow tangency, and the factor of compressibility in it.
+fn from_tangency<S: Real>(
+    airfoil: &Airfoil,
+    air: &Air,
+    chord: f64,
+    prandtl_glauert: bool,
+    [along, normal]: [S; 2],
+) -> (S, S) {
+    let (s0, c0) = airfoil.zero_lift().sin_cos();
+    let mach = speed_of([along, normal]) / air.speed_of_sound;
+    let ahead = if along.re() <= 0.0 { 1.0 } else { -1.0 };
+    let factor = if prandtl_glauert && mach.re() < FACTOR_LIMIT {
+        S::one() / (S::one() - mach * mach).sqrt()
+    } else if prandtl_glauert {
+        S::cst(1.0 / (1.0 - FACTOR_LIMIT * FACTOR_LIMIT).sqrt())
+    } else {
+        S::one()
+    };
+    let zero_lift_normal = normal * c0 + along * s0;
+    (zero_lift_normal * factor * (PI * chord * ahead), factor)
 }

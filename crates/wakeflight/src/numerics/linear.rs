@@ -100,10 +100,23 @@ impl LinearSystem {
         }
     }
 
+    /// Rows of A and the right-hand side, as `fill` writes them: row index, its n coefficients and the number on the right.
+    pub fn set(&mut self, mut fill: impl FnMut(usize, &mut [f64])) {
+        let n = self.n;
+        for (i, row) in self.rows.chunks_exact_mut(blocks_of(n + 1)).enumerate() {
+            fill(i, &mut row.as_flattened_mut()[..=n]);
+        }
+    }
+
     /// Solves by elimination with partial pivoting into `x` (n); what was set is used up.
     ///
     /// Returns whether every pivot differs from zero; otherwise `x` holds nothing of use.
     pub fn solve(&mut self, x: &mut [f64]) -> bool {
+        self.solve_signed(x).is_some()
+    }
+
+    /// The same; returns the sign of the determinant, None where it is zero.
+    pub fn solve_signed(&mut self, x: &mut [f64]) -> Option<f64> {
         debug_assert_eq!(x.len(), self.n);
         compiled(Elimination { system: self, x })
     }
@@ -115,11 +128,12 @@ struct Elimination<'a> {
 }
 
 impl Loops for Elimination<'_> {
-    type Output = bool;
+    type Output = Option<f64>;
     #[inline(always)]
-    fn run(self) -> bool {
+    fn run(self) -> Option<f64> {
         let LinearSystem { n, rows } = self.system;
         let (n, width) = (*n, blocks_of(*n + 1));
+        let mut sign = 1.0;
         for k in 0..n {
             let (block, lane) = (k / BLOCK, k % BLOCK);
             let (mut pivot, mut size) = (k, rows[k * width + block][lane].abs());
@@ -130,11 +144,13 @@ impl Loops for Elimination<'_> {
                 }
             }
             if rows[pivot * width + block][lane] == 0.0 {
-                return false;
+                return None;
             }
+            sign *= rows[pivot * width + block][lane].signum();
             let (upper, lower) = rows.split_at_mut((k + 1) * width);
             let first = &mut upper[k * width + block..];
             if pivot != k {
+                sign = -sign;
                 first.swap_with_slice(&mut lower[(pivot - k - 1) * width + block..][..width - block]);
             }
             let inverse = 1.0 / first[0][lane];
@@ -149,7 +165,7 @@ impl Loops for Elimination<'_> {
             let known: f64 = row[k + 1..n].iter().zip(&self.x[k + 1..]).map(|(a, x)| a * x).sum();
             self.x[k] = (row[n] - known) / row[k];
         }
-        true
+        Some(sign)
     }
 }
 
@@ -194,6 +210,20 @@ mod tests {
             for (x, e) in x.iter().zip(&exact) {
                 assert!((x - e).abs() < 1e-11, "{n}: {x} {e}");
             }
+        }
+    }
+
+    #[test]
+    fn the_sign_of_the_determinant_comes_with_the_solution() {
+        // a cycle of three rows is even, an exchange of two odd; a negative number turns either
+        for (rows, sign) in [
+            ([[0.0, 2.0, 0.0], [0.0, 0.0, 3.0], [5.0, 0.0, 0.0]], 1.0),
+            ([[0.0, 2.0, 0.0], [3.0, 0.0, 0.0], [0.0, 0.0, 5.0]], -1.0),
+            ([[0.0, 2.0, 0.0], [3.0, 0.0, 0.0], [0.0, 0.0, -5.0]], 1.0),
+        ] {
+            let mut system = LinearSystem::new(3);
+            system.set(|i, row| row.copy_from_slice(&[rows[i][0], rows[i][1], rows[i][2], 1.0]));
+            assert_eq!(system.solve_signed(&mut [0.0; 3]), Some(sign));
         }
     }
 

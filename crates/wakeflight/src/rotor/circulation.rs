@@ -9,9 +9,8 @@ use crate::blade::kinematics::{ModalMotion, PitchMotion};
 use crate::blade::memory_rows::MemoryRows;
 use crate::blade::section_wind::SectionWind;
 use crate::blade::sections_in_time::BladePast;
-use crate::blade::surroundings::BladeInflow;
-use crate::blade::thin_section::{SectionLift, ThinSection};
-use crate::numerics::scalar::{Dual, Real};
+use crate::blade::thin_section::SectionLift;
+use crate::numerics::scalar::Dual;
 use crate::wake::{
     BladeState, CirculationSolution, HubMotion as WakeHub, Route, WakeError, WakeOptions, near_wake_matrix,
     solve_circulation, weissinger_matrix,
@@ -104,15 +103,8 @@ impl Rotor {
         circulation: &mut [f64],
         slope: &mut [f64],
     ) {
-        match self.thin {
-            Some(law) => self.thin_circulation(law, air, hub, blade.instant, lambda, |j, gamma| {
-                (circulation[j], slope[j]) = (gamma.re, gamma.eps[0]);
-            }),
-            None => {
-                let winds = self.section_winds(hub, blade.instant);
-                self.circulation_of(air, (&winds, blade.past), lambda, circulation, slope);
-            }
-        }
+        let winds = self.section_winds(hub, blade.instant);
+        self.circulation_of(air, (&winds, blade.past), lambda, circulation, slope);
     }
 
     fn section_winds(&self, hub: &HubMotion<f64>, blade: &BladeInstant) -> Vec<SectionWind> {
@@ -133,43 +125,12 @@ impl Rotor {
         for (j, wind) in winds.iter().enumerate() {
             // a station's circulation depends on its own inflow alone
             let (airfoil, lambda) = (self.airfoils.at(j), Dual::<1>::variable(lambda[j], 0));
-            let gamma = match &sections {
-                None => wind.circulation(airfoil, &air, lambda),
-                Some(sections) => wind.circulation_in_time((j, airfoil), &air, sections, lambda),
+            let gamma = match (self.thin, &sections) {
+                (Some(law), _) => wind.thin_circulation(law, airfoil, &air, lambda),
+                (None, None) => wind.circulation(airfoil, &air, lambda),
+                (None, Some(sections)) => wind.circulation_in_time((j, airfoil), &air, sections, lambda),
             };
             (circulation[j], slope[j]) = (gamma.re, gamma.eps[0]);
-        }
-    }
-
-    /// The same of thin sections, `lambda` at three quarters of the chord; `each` sees every station's.
-    fn thin_circulation(
-        &self,
-        law: ThinSection,
-        air: Air,
-        hub: &HubMotion<f64>,
-        blade: &BladeInstant,
-        lambda: &[f64],
-        mut each: impl FnMut(usize, Dual<1>),
-    ) {
-        type D = Dual<1>;
-        // a station's circulation depends on its own inflow alone: one direction serves all
-        let inflow: Vec<D> = lambda.iter().map(|&l| D::variable(l, 0)).collect();
-        let constant = |m: [f64; crate::blade::MAX_MODES]| m.map(D::cst);
-        let modal = ModalMotion {
-            q: constant(blade.modal.q),
-            q_dot: constant(blade.modal.q_dot),
-            q_ddot: constant(blade.modal.q_ddot),
-        };
-        let c = &blade.control;
-        let control = PitchMotion {
-            theta: D::cst(c.theta),
-            theta_dot: D::cst(c.theta_dot),
-            theta_ddot: D::cst(c.theta_ddot),
-        };
-        let (hub, inflow) = (hub.constant(), BladeInflow::ThreeQuarter { law, inflow: &inflow });
-        let sections = self.blade_air(air, &hub, D::cst(blade.psi), &modal, &control, &inflow);
-        for (j, (section, _)) in sections.enumerate() {
-            each(j, section.circulation);
         }
     }
 
@@ -280,19 +241,14 @@ impl Rotor {
         let floor: Vec<f64> =
             self.blade.stations.iter().map(|s| steepest * s.geometry.chord * self.tip_speed()).collect();
         let tolerance = CIRCULATION_TOLERANCE * self.omega * radius * radius;
-        if let (Some(law), Some(matrix)) = (self.thin, &near_wake.three_quarter) {
-            let mut solution = solve_circulation(
-                lambda_far,
-                matrix,
-                |lambda, circulation, slope| {
-                    self.thin_circulation(law, air, hub, blade.instant, lambda, |j, gamma| {
-                        (circulation[j], slope[j]) = (gamma.re, gamma.eps[0]);
-                    });
-                },
-                start,
-                &floor,
-                tolerance,
-            )?;
+        // the motion of the sections does not change while the circulation is sought
+        let winds = self.section_winds(hub, blade.instant);
+        let section = |lambda: &[f64], circulation: &mut [f64], slope: &mut [f64]| {
+            self.circulation_of(air, (&winds, blade.past), lambda, circulation, slope);
+        };
+        let matrix = near_wake.three_quarter.as_ref().unwrap_or(&near_wake.bound_line);
+        let mut solution = solve_circulation(lambda_far, matrix, section, start, &floor, tolerance)?;
+        if near_wake.three_quarter.is_some() {
             // lift is perpendicular to the air at the bound line, where the own bound vortex induces nothing
             let rows = near_wake.bound_line.chunks_exact(lambda_far.len()).zip(lambda_far);
             let mut held: Vec<f64> = rows
@@ -300,20 +256,8 @@ impl Rotor {
                 .collect();
             held.append(&mut solution.inflow);
             solution.inflow = held;
-            return Ok(solution);
         }
-        // the motion of the sections does not change while the circulation is sought
-        let winds = self.section_winds(hub, blade.instant);
-        solve_circulation(
-            lambda_far,
-            &near_wake.bound_line,
-            |lambda, circulation, slope| {
-                self.circulation_of(air, (&winds, blade.past), lambda, circulation, slope);
-            },
-            start,
-            &floor,
-            tolerance,
-        )
+        Ok(solution)
     }
 
     /// Circulation and near wake of a blade at every azimuth for held far inflow, of a rotor in motion as `course` says;

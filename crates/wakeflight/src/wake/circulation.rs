@@ -22,6 +22,11 @@ const LARGEST_INFLOW: f64 = 1.0;
 /// Circulation over the steepest slope that counts as large along a path: an inflow.
 const PATH_SCALE: f64 = 0.05;
 
+/// Most steps in which circulation follows its sections with a lag.
+const MAX_LAGGED: usize = 2000;
+/// Residual over that from which slopes are taken as they are, at which it has arrived.
+const ARRIVED: f64 = 0.01;
+
 /// Solution of the circulation and the near wake.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CirculationSolution {
@@ -57,6 +62,8 @@ pub enum Route {
     Linear,
     /// The path on which the near wake's influence grows from none to its own.
     NearWake,
+    /// Circulation that follows its sections with a lag, until it has reached them.
+    Lagged,
 }
 
 /// One evaluation: inflow, section circulation and slopes at `gamma`.
@@ -125,7 +132,9 @@ struct Problem<'a, F> {
 /// all: Gamma = Gamma_section(lambda_far + t N Gamma). Lift coefficients are bounded and vanish where the inflow is all of
 /// the wind, so circulation stays bounded on the way and the path has nowhere to go but to t = 1. Between the two Newton is
 /// tried from the circulation that sections of the far inflow's slope would have: a wide blade's start without near wake
-/// stalls its tip, and Newton does not come back from there. Values of `section` that are not finite are treated as an
+/// stalls its tip, and Newton does not come back from there. A path with kinks in twenty unknowns can be lost all the same (a step
+/// lands on a closed loop of another branch): at last each station goes toward its section step by step, as air that needs time
+/// would, and stays where it comes to rest. Values of `section` that are not finite are treated as an
 /// infinite residual and never accepted.
 pub fn solve_circulation(
     lambda_far: &[f64],
@@ -188,17 +197,18 @@ impl<F: FnMut(&[f64], &mut [f64], &mut [f64])> Problem<'_, F> {
         if self.solved(&newton, tolerance) {
             return (newton, iterations, Some(Route::Newton));
         }
-        for route in [Route::FromStart, Route::Linear, Route::NearWake] {
+        for route in [Route::FromStart, Route::Linear, Route::NearWake, Route::Lagged] {
             let arrived = match route {
                 Route::Newton | Route::FromStart => self.along_defect(&gamma_start),
                 Route::Linear => self.linear(),
                 Route::NearWake => self.along_near_wake(),
+                Route::Lagged => self.lagged(&gamma_start),
             };
             let Some(gamma) = arrived else { continue };
             let mut there = Iterate::new(gamma.len());
             there.gamma = gamma;
             let (found, n) = match route {
-                Route::Linear => self.settle(there, tolerance),
+                Route::Linear | Route::Lagged => self.settle(there, tolerance),
                 _ => {
                     self.evaluate(&mut there);
                     self.descend(there, Slopes::Exact, tolerance)
@@ -226,6 +236,34 @@ impl<F: FnMut(&[f64], &mut [f64], &mut [f64])> Problem<'_, F> {
         self.evaluate(&mut flat);
         let mut gamma = vec![0.0; n];
         self.newton_step(&flat, Slopes::Clipped, &mut LinearSystem::new(n), &mut gamma).then_some(gamma)
+    }
+
+    /// From `start`, each station goes toward its section by the share that what all others may do to it leaves: a blade in air that
+    /// needs time to follow. None where it does not come to rest.
+    fn lagged(&mut self, start: &[f64]) -> Option<Vec<f64>> {
+        let n = start.len();
+        let share: Vec<f64> = (0..n)
+            .map(|i| {
+                let felt: f64 = self.near[i * n..(i + 1) * n].iter().map(|v| v.abs()).sum();
+                1.0 / (1.0 + felt * self.floor[i].abs())
+            })
+            .collect();
+        let steepest = self.floor.iter().fold(0.0f64, |most, s| most.max(s.abs()));
+        let mut here = Iterate::new(n);
+        here.gamma.copy_from_slice(start);
+        for _ in 0..MAX_LAGGED {
+            self.evaluate(&mut here);
+            if here.residual <= ARRIVED * CLOSE * steepest {
+                return Some(here.gamma);
+            }
+            if here.residual.is_infinite() {
+                return None;
+            }
+            for ((gamma, defect), share) in here.gamma.iter_mut().zip(&here.defect).zip(&share) {
+                *gamma += share * defect;
+            }
+        }
+        None
     }
 
     fn path_scale(&self) -> f64 {

@@ -3,7 +3,7 @@
 //! H(x, t) = 0 is followed from a zero at t = 0 to t = 1, through folds, where t goes back for a while. What is followed
 //! may have kinks: the sign of det [H_x H_t; tangent] keeps the direction across them.
 
-use nalgebra::{DMatrix, DVector};
+use crate::numerics::linear::LinearSystem;
 
 /// First step of arc length; the scale of x makes 1 of what is large in it.
 const FIRST_STEP: f64 = 0.02;
@@ -38,106 +38,154 @@ pub(super) struct Place {
     pub by_parameter: Vec<f64>,
 }
 
-/// Point (x / scale, t) of the path.
-type Point = DVector<f64>;
+/// Where a path that was followed ends.
+enum End {
+    /// At t = 1, with its x over the scale.
+    Arrived(Vec<f64>),
+    /// Back at t = 0, at another zero: from there this path does not lead on.
+    Back,
+    /// Nowhere: no next point was found.
+    Lost,
+}
 
 /// x at t = 1, reached from the zero `start` at t = 0, to about 1e-7 of `scale`; None where the path could not be followed
 /// to there. `start` need not be a zero exactly: the first point is corrected.
 pub(super) fn follow(path: &mut impl Path, start: &[f64], scale: f64) -> Option<Vec<f64>> {
-    LONGEST_STEPS.iter().find_map(|&longest| follow_with(path, start, scale, longest))
-}
-
-fn follow_with(path: &mut impl Path, start: &[f64], scale: f64, longest: f64) -> Option<Vec<f64>> {
-    let n = start.len();
-    let mut follower = Follower {
-        path,
-        n,
-        scale,
-        at: Place { value: vec![0.0; n], slope: vec![0.0; n * n], by_parameter: vec![0.0; n] },
-    };
-    let mut here = Point::from_iterator(n + 1, start.iter().map(|x| x / scale).chain([0.0]));
-    // the first direction is that of growing t
-    let mut rising = DVector::zeros(n + 1);
-    rising[n] = 1.0;
-    let (first, orientation) = follower.tangent(&here, &rising, None)?;
-    let mut tangent = first;
-    let mut step = FIRST_STEP;
-    for _ in 0..MAX_POINTS {
-        if step < SHORTEST_STEP {
-            return None;
-        }
-        let Some((there, corrections)) = follower.advance(&here, &tangent, step, orientation) else {
-            step *= 0.25;
-            continue;
-        };
-        if there[n] >= 1.0 {
-            let share = (1.0 - here[n]) / (there[n] - here[n]);
-            let mut last = &here + (&there - &here) * share;
-            last[n] = 1.0;
-            if let Some((x, _)) = follower.correct(last, &rising) {
-                return Some(x.rows(0, n).iter().map(|v| v * scale).collect());
-            }
-            step *= 0.25;
-            continue;
-        }
-        // back at the start: another zero of t = 0, from which this path does not lead on
-        if there[n] < 0.0 {
-            return None;
-        }
-        tangent = follower.tangent(&there, &tangent, Some(orientation))?.0;
-        here = there;
-        if corrections <= 3 {
-            step = (2.0 * step).min(longest);
+    let mut back = 0;
+    for longest in LONGEST_STEPS {
+        match Follower::new(path, start.len(), scale).follow(start, longest) {
+            End::Arrived(x) => return Some(x.iter().map(|v| v * scale).collect()),
+            // once, a step may have been long enough for another branch; twice, with other steps, this is where it leads
+            End::Back if back == 1 => return None,
+            End::Back => back += 1,
+            End::Lost => {}
         }
     }
     None
 }
 
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+fn norm(a: &[f64]) -> f64 {
+    dot(a, a).sqrt()
+}
+
+/// `from` and `step` of `along` more.
+fn ahead(from: &[f64], along: &[f64], step: f64) -> Vec<f64> {
+    from.iter().zip(along).map(|(a, b)| a + step * b).collect()
+}
+
+/// A path, points (x / scale, t) on it and what is needed to go on.
 struct Follower<'a, P> {
     path: &'a mut P,
     n: usize,
     scale: f64,
+    /// Point that `at` belongs to; empty before the first.
+    known: Vec<f64>,
     at: Place,
+    x: Vec<f64>,
+    system: LinearSystem,
 }
 
-impl<P: Path> Follower<'_, P> {
-    /// H over the scale and [H_x H_t; row], x in units of the scale.
-    fn bordered(&mut self, point: &Point, row: &DVector<f64>) -> Option<(DVector<f64>, DMatrix<f64>)> {
+impl<'a, P: Path> Follower<'a, P> {
+    fn new(path: &'a mut P, n: usize, scale: f64) -> Self {
+        let at = Place { value: vec![0.0; n], slope: vec![0.0; n * n], by_parameter: vec![0.0; n] };
+        Self { path, n, scale, known: Vec::new(), at, x: vec![0.0; n], system: LinearSystem::new(n + 1) }
+    }
+
+    fn follow(&mut self, start: &[f64], longest: f64) -> End {
         let n = self.n;
-        let x: Vec<f64> = point.rows(0, n).iter().map(|v| v * self.scale).collect();
-        if !self.path.evaluate(&x, point[n], &mut self.at) {
-            return None;
+        let mut here: Vec<f64> = start.iter().map(|x| x / self.scale).chain([0.0]).collect();
+        // the first direction is that of growing t
+        let mut rising = vec![0.0; n + 1];
+        rising[n] = 1.0;
+        let Some((mut tangent, orientation)) = self.tangent(&here, &rising, None) else { return End::Lost };
+        let mut step = FIRST_STEP;
+        for _ in 0..MAX_POINTS {
+            if step < SHORTEST_STEP {
+                return End::Lost;
+            }
+            let Some((there, corrections)) = self.advance(&here, &tangent, step, orientation) else {
+                step *= 0.25;
+                continue;
+            };
+            if there[n] >= 1.0 {
+                let share = (1.0 - here[n]) / (there[n] - here[n]);
+                let mut last: Vec<f64> = here.iter().zip(&there).map(|(a, b)| a + (b - a) * share).collect();
+                last[n] = 1.0;
+                if let Some((mut x, _)) = self.correct(last, &rising) {
+                    x.truncate(n);
+                    return End::Arrived(x);
+                }
+                step *= 0.25;
+                continue;
+            }
+            if there[n] < 0.0 {
+                return End::Back;
+            }
+            let Some((onward, _)) = self.tangent(&there, &tangent, Some(orientation)) else {
+                return End::Lost;
+            };
+            (here, tangent) = (there, onward);
+            if corrections <= 3 {
+                step = (2.0 * step).min(longest);
+            }
         }
-        let value = DVector::from_iterator(n, self.at.value.iter().map(|v| v / self.scale));
-        let matrix = DMatrix::from_fn(n + 1, n + 1, |i, j| match (i < n, j < n) {
-            (true, true) => self.at.slope[i * n + j],
-            (true, false) => self.at.by_parameter[i] / self.scale,
-            _ => row[j],
+        End::Lost
+    }
+
+    /// Finds H and its derivatives at `point`, unless they are those of the last; false where they do not exist.
+    fn evaluate(&mut self, point: &[f64]) -> bool {
+        if self.known == point {
+            return true;
+        }
+        self.known.clear();
+        self.x.iter_mut().zip(point).for_each(|(x, v)| *x = v * self.scale);
+        if !self.path.evaluate(&self.x, point[self.n], &mut self.at) {
+            return false;
+        }
+        self.known.extend_from_slice(point);
+        true
+    }
+
+    /// Solves [H_x H_t; row] y = (right, last), x in units of the scale; with the sign of the determinant.
+    fn solve(
+        &mut self,
+        row: &[f64],
+        right: impl Fn(&Place, usize) -> f64,
+        last: f64,
+    ) -> Option<(Vec<f64>, f64)> {
+        let (n, at, scale) = (self.n, &self.at, self.scale);
+        self.system.set(|i, to| {
+            if i < n {
+                to[..n].copy_from_slice(&at.slope[i * n..(i + 1) * n]);
+                (to[n], to[n + 1]) = (at.by_parameter[i] / scale, right(at, i));
+            } else {
+                to[..=n].copy_from_slice(row);
+                to[n + 1] = last;
+            }
         });
-        Some((value, matrix))
+        let mut y = vec![0.0; n + 1];
+        let sign = self.system.solve_signed(&mut y)?;
+        Some((y, sign))
     }
 
     /// Unit tangent with the sign of det [H_x H_t; tangent] given, at first that along `row`; and that sign.
-    fn tangent(
-        &mut self,
-        point: &Point,
-        row: &DVector<f64>,
-        orientation: Option<f64>,
-    ) -> Option<(DVector<f64>, f64)> {
-        let n = self.n;
-        let (_, matrix) = self.bordered(point, row)?;
-        let factors = matrix.lu();
-        let mut right = DVector::zeros(n + 1);
-        right[n] = 1.0;
-        let along = factors.solve(&right)?;
-        let length = along.norm();
+    fn tangent(&mut self, point: &[f64], row: &[f64], orientation: Option<f64>) -> Option<(Vec<f64>, f64)> {
+        if !self.evaluate(point) {
+            return None;
+        }
+        let (mut along, sign) = self.solve(row, |_, _| 0.0, 1.0)?;
+        let length = norm(&along);
         if !length.is_finite() || length == 0.0 {
             return None;
         }
         // with the tangent itself as last row the determinant is that with `row` times |along|^2 over row.along = 1
-        let sign = factors.determinant().signum();
         let turned = if orientation.is_some_and(|wanted| wanted != sign) { -1.0 } else { 1.0 };
-        Some((along * (turned / length), sign))
+        along.iter_mut().for_each(|v| *v *= turned / length);
+        Some((along, sign))
     }
 
     /// The next point of the path, about `step` on, and the corrections it took.
@@ -146,34 +194,39 @@ impl<P: Path> Follower<'_, P> {
     /// kink leads on from there.
     fn advance(
         &mut self,
-        here: &Point,
-        tangent: &Point,
+        here: &[f64],
+        tangent: &[f64],
         step: f64,
         orientation: f64,
-    ) -> Option<(Point, usize)> {
+    ) -> Option<(Vec<f64>, usize)> {
         // a far correction may have jumped to another branch
-        let near = |(there, n): (Point, usize)| ((&there - here).norm() <= 2.5 * step).then_some((there, n));
-        let ahead = here + tangent * step;
-        if let Some(found) = self.correct(ahead.clone(), tangent).and_then(near) {
+        let near = |(there, n): (Vec<f64>, usize)| {
+            (norm(&ahead(&there, here, -1.0)) <= 2.5 * step).then_some((there, n))
+        };
+        let straight_on = ahead(here, tangent, step);
+        if let Some(found) = self.correct(straight_on.clone(), tangent).and_then(near) {
             return Some(found);
         }
-        let (turned, _) = self.tangent(&ahead, tangent, Some(orientation))?;
-        if step > TURNING_STEP || turned.dot(tangent) > SHARP {
+        let (turned, _) = self.tangent(&straight_on, tangent, Some(orientation))?;
+        if step > TURNING_STEP || dot(&turned, tangent) > SHARP {
             return None;
         }
-        let (there, corrections) = self.correct(ahead + &turned * step, &turned).and_then(near)?;
+        let (there, corrections) =
+            self.correct(ahead(&straight_on, &turned, step), &turned).and_then(near)?;
         // the correction may have gone back to the near side of the kink
         let (onward, _) = self.tangent(&there, &turned, Some(orientation))?;
-        (onward.dot(&turned) > SHARP).then_some((there, corrections))
+        (dot(&onward, &turned) > SHARP).then_some((there, corrections))
     }
 
     /// The point of the path in the plane across `row` through `point`, and the corrections it took.
-    fn correct(&mut self, mut point: Point, row: &DVector<f64>) -> Option<(Point, usize)> {
-        let n = self.n;
+    fn correct(&mut self, mut point: Vec<f64>, row: &[f64]) -> Option<(Vec<f64>, usize)> {
+        let (n, scale) = (self.n, self.scale);
         let mut before = f64::INFINITY;
         for correction in 0..=MAX_CORRECTIONS {
-            let (value, matrix) = self.bordered(&point, row)?;
-            let size = value.amax();
+            if !self.evaluate(&point) {
+                return None;
+            }
+            let size = self.at.value.iter().fold(0.0f64, |most, v| most.max(v.abs())) / scale;
             if size <= ON_PATH {
                 return Some((point, correction));
             }
@@ -182,9 +235,8 @@ impl<P: Path> Follower<'_, P> {
                 return None;
             }
             before = size;
-            let mut right = DVector::zeros(n + 1);
-            right.rows_mut(0, n).copy_from(&value);
-            point -= matrix.lu().solve(&right)?;
+            let (change, _) = self.solve(row, |at, i| at.value[i] / scale, 0.0)?;
+            point.iter_mut().zip(&change).for_each(|(p, c)| *p -= c);
             if !point.iter().all(|v| v.is_finite()) {
                 return None;
             }

@@ -79,7 +79,7 @@ fn every_problem_within_reach_of_a_helicopter_has_a_solution_and_it_is_found() {
         seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         low + (high - low) * (seed >> 11) as f64 / 9_007_199_254_740_992.0
     };
-    let mut found = [0; 4];
+    let mut found = [0; 5];
     for _ in 0..1000 {
         let mu = random(0.0, 0.6);
         let psi = random(0.0, std::f64::consts::TAU);
@@ -120,6 +120,29 @@ fn every_problem_within_reach_of_a_helicopter_has_a_solution_and_it_is_found() {
     }
     // the problems are hard enough that Newton alone leaves some
     assert!(found[1] > 0, "{found:?}");
+}
+
+#[test]
+fn circulation_that_lags_behind_its_sections_comes_to_rest_at_them() {
+    // sections stalled over half the blade, tables with kinks, starts from far away
+    let (options, matrix) = rotor();
+    let (n, k) = (options.n_stations, options.rotor.chord * options.tip_speed());
+    for (root, first) in [(0.1, 0.0), (0.3, 20.0), (0.45, -20.0)] {
+        let mut section = |lambda: &[f64], gamma: &mut [f64], slope: &mut [f64]| {
+            for i in 0..n {
+                let (cl, by_alpha) = kinked_lift(root - 0.2 * i as f64 / n as f64 - lambda[i]);
+                (gamma[i], slope[i]) = (0.5 * k * cl, -0.5 * k * by_alpha);
+            }
+        };
+        let (far, floor) = (vec![0.04; n], vec![-3.0 * k; n]);
+        let columns = Columns::new(&matrix, n);
+        let mut problem = Problem { far: &far, near: &matrix, columns, floor: &floor, section: &mut section };
+        let gamma = problem.lagged(&vec![first; n]).unwrap();
+        let mut there = Iterate::new(n);
+        there.gamma = gamma;
+        let (found, _) = problem.settle(there, 1e-7);
+        assert!(problem.solved(&found, 1e-7), "{root}: {}", found.residual);
+    }
 }
 
 #[test]
