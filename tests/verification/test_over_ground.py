@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import wakeflight as wf
-from wakeflight.results.frames import body_of_hub
 from wakeflight.model import ROLL, YAW
+from wakeflight.results.frames import body_of_hub
 
 OVER_GROUND = "constant-over-ground"
 KICK = wf.Maneuver("kick", {"pedal": [(0.1, 0.0), (0.15, 1.0)], "lateral": [(0.2, 0.0), (0.3, 0.5)]}, seconds=2.0)
@@ -42,7 +42,7 @@ def test_the_speed_about_the_airframe_is_the_nominal_one_and_the_yaw(start, kick
     names = [name for name, _ in start.model.over_ground().core.state_names()]
     given = [name for name, _ in start.model.core.state_names()]
     assert [n for n in names if n not in given] == ["rotor.main.azimuth", "rotor.main.speed"]
-    assert "constant-over-ground" in run.attrs["rotor_speed"] if "rotor_speed" in run.attrs else True
+    assert OVER_GROUND in kicked.data.attrs["input"]
 
 
 def test_the_engines_give_what_the_rotor_takes(kicked):
@@ -135,32 +135,57 @@ def held(aircraft, knots):
     return start, models
 
 
-@pytest.mark.parametrize(("name", "more"), [("uh60a", (1.15, 1.22)), ("bo105", (1.2, 1.27))])
-def test_yaw_control_power_is_that_of_the_airframe(name, more):
-    start, models = held(wf.load_aircraft(name), 80)
-    reduced = [each.reduce(8) for each in models]
-    for state in ("N_ped", "N_r"):
-        values = [
-            float(m.B.sel(state="r", input="pedal")) if state == "N_ped" else float(m.A.sel(state="r", state_="r"))
-            for m in reduced
-        ]
-        assert more[0] < values[1] / values[0] < more[1], (state, values)
+MORE = {
+    "uh60a": {"N_ped": (1.19, 1.22), "N_v": (1.20, 1.24), "N_r": (1.10, 1.15)},
+    "bo105": {"N_ped": (1.23, 1.26), "N_v": (1.25, 1.29), "N_r": (1.19, 1.23)},
+}
+"""With the blades' polar inertia, 19 and 23 % of that of the airframe in yaw, out of it; see docs/physics/conventions.md."""
 
 
 @pytest.mark.parametrize("name", ["uh60a", "bo105"])
-def test_linear_equals_flown(name):
+def test_yaw_derivatives_are_those_of_the_airframe(name):
+    _, models = held(wf.load_aircraft(name), 80)
+    reduced = [each.reduce(8) for each in models]
+    found = {
+        "N_ped": [float(m.B.sel(state="r", input="pedal")) for m in reduced],
+        "N_v": [float(m.A.sel(state="r", state_="v")) for m in reduced],
+        "N_r": [float(m.A.sel(state="r", state_="r")) for m in reduced],
+    }
+    for derivative, (low, high) in MORE[name].items():
+        about_airframe, over_ground = found[derivative]
+        assert low < over_ground / about_airframe < high, derivative
+
+
+def test_the_dutch_roll_is_faster():
+    _, models = held(wf.load_aircraft("bo105"), 120)
+    found = []
+    for each in models:
+        roots = np.linalg.eigvals(each.A.values)
+        found.append(min(roots, key=lambda s: abs(s - (-0.5 + 3.5j))).imag)
+    assert found == pytest.approx([3.405, 3.757], abs=0.02)
+
+
+# the fuselage's tables of the UH-60A have a break 0.4 m/s of sideslip beside this trim
+@pytest.mark.parametrize(("name", "inches"), [("uh60a", 0.02), ("bo105", 0.1)])
+def test_linear_equals_flown(name, inches):
     start, _ = held(wf.load_aircraft(name), 80)
-    model = wf.linearize(start, rotor_speed=OVER_GROUND)
+    models = [wf.linearize(start, rotor_speed=each) for each in ("constant", OVER_GROUND)]
     both = []
-    for side in (0.1, -0.1):
+    for side in (inches, -inches):
         step = wf.Maneuver("step", {"pedal": [(0.1, 0.0), (0.11, side), (2.0, side)]}, seconds=2.0)
         both.append(wf.fly(start, step, integrator="fixed", rotor_speed=OVER_GROUND).data)
     # times follow the rotor, which is not the same in both
-    at = np.linspace(0.0, 1.95, 300)
-    fine = np.linspace(0.0, 2.0, 4001)
-    found = model.response(fine, {"pedal": 0.1 * np.clip((fine - 0.1) / 0.01, 0.0, 1.0)})
-    other = wf.linearize(start).response(fine, {"pedal": 0.1 * np.clip((fine - 0.1) / 0.01, 0.0, 1.0)})
+    at, fine = np.linspace(0.0, 1.95, 300), np.linspace(0.0, 2.0, 4001)
     flown = 0.5 * np.subtract(*(np.interp(at, run.time.values, run.r.values) for run in both))
-    linear, about_airframe = (np.interp(at, fine, each["r"].values) for each in (found, other))
-    off, far = (np.abs(each - flown).max() / np.abs(flown).max() for each in (linear, about_airframe))
-    assert off < 0.02 < 0.05 < far
+    stick = {"pedal": inches * np.clip((fine - 0.1) / 0.01, 0.0, 1.0)}
+    answers = [np.interp(at, fine, each.response(fine, stick)["r"].values) for each in models]
+    far, off = (np.abs(each - flown).max() / np.abs(flown).max() for each in answers)
+    assert off < 0.006 < 0.08 < far
+
+
+def test_wakes_whose_answers_to_the_speed_are_not_known_are_refused(uh60a):
+    coarse = wf.RelaxationWake(turns=2, azimuth_step="15 deg", update_interval="90 deg")
+    start = wf.trim(uh60a.with_rigid_blades(), wf.FlightCondition(speed="80 kt"), inflow=coarse)
+    with pytest.raises(wf.InputError, match="wake = quasi-static: allowed with rotor_speed='constant-over-ground'"):
+        wf.linearize(start, wake="quasi-static", rotor_speed=OVER_GROUND)
+    assert "rotor_speed" in wf.linearize(start, wake="frozen", rotor_speed=OVER_GROUND).to_dataset().attrs

@@ -14,7 +14,7 @@ use crate::rotor::speed::RotorSpeed;
 impl System {
     /// The same system, its first rotor turned by `drive`: azimuth and speed are states. What is geared to it (closed-form rotors,
     /// accessories) loads it.
-    pub fn with_drive(mut self, drive: Drive) -> Result<Self, DriveError> {
+    pub fn with_drive(self, drive: Drive) -> Result<Self, DriveError> {
         let first = match drive.governor {
             Some(_) => SpeedStates::Governed,
             None => SpeedStates::Free,
