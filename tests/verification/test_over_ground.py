@@ -186,6 +186,6 @@ def test_linear_equals_flown(name, inches):
 def test_wakes_whose_answers_to_the_speed_are_not_known_are_refused(uh60a):
     coarse = wf.RelaxationWake(turns=2, azimuth_step="15 deg", update_interval="90 deg")
     start = wf.trim(uh60a.with_rigid_blades(), wf.FlightCondition(speed="80 kt"), inflow=coarse)
-    with pytest.raises(wf.InputError, match="wake = quasi-static: allowed with rotor_speed='constant-over-ground'"):
+    with pytest.raises(wf.InputError, match="wake = 'quasi-static': allowed with rotor_speed='constant-over-ground'"):
         wf.linearize(start, wake="quasi-static", rotor_speed=OVER_GROUND)
     assert "rotor_speed" in wf.linearize(start, wake="frozen", rotor_speed=OVER_GROUND).to_dataset().attrs
