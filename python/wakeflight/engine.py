@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from .errors import InputError, NumericalFailure
-from .rotor_speed import CONSTANT, Corners, RotorSpeed, as_text, history
+from .rotor_speed import CONSTANT, OVER_GROUND, Corners, RotorSpeed, as_text, history
 from .units import number, quantity
 
 
@@ -144,29 +144,35 @@ class FreeEngine(Engine):
 ENGINES = {"governed": GovernedEngine, "free": FreeEngine}
 """Engines by the names that `rotor_speed` takes."""
 
+NAMES = (CONSTANT, OVER_GROUND, *ENGINES)
+"""All names that it takes."""
+
 
 @dataclass(frozen=True)
 class Turning:
-    """How a rotor turns in a flight: at corners of a given speed, none at a constant one, or driven by an engine."""
+    """How a rotor turns in a flight: at a speed given by corners (none: constant), by an engine, or constant over the ground."""
 
     corners: Corners = ()
     engine: Engine | None = None
+    over_ground: bool = False
 
     @property
     def name(self) -> str:
         """In words, for what belongs to a flight."""
-        return str(self.engine or self.corners or CONSTANT)
+        return str(self.engine or self.corners or (OVER_GROUND if self.over_ground else CONSTANT))
 
 
 def turning(rotor_speed: RotorSpeed | Engine) -> Turning:
-    """What `rotor_speed` says: `constant`, pairs (time, share of the nominal speed), `governed`, `free`, or an engine."""
+    """What `rotor_speed` says: a name, pairs (time, share of the nominal speed), or an engine."""
     match rotor_speed:
         case Engine():
             return Turning(engine=rotor_speed)
         case str() if rotor_speed in ENGINES:
             return Turning(engine=ENGINES[rotor_speed]())
+        case str() if rotor_speed == OVER_GROUND:
+            return Turning(over_ground=True)
         case str() if rotor_speed != CONSTANT:
-            allowed = f"allowed: {CONSTANT}, {', '.join(ENGINES)}, pairs (time, share of the nominal speed), an Engine"
+            allowed = f"allowed: {', '.join(NAMES)}, pairs (time, share of the nominal speed), an Engine"
             raise InputError.of("rotor_speed", rotor_speed, allowed)
     return Turning(history(rotor_speed))
 

@@ -144,8 +144,9 @@ def fly(
     rtol: relative tolerance of the solver, its absolute ones go with it.
     stabilator: `held` at its trim incidence, or `scheduled`, following its schedule within the rate of its servo.
     rotor_speed: `constant`, or pairs (time, share of the nominal speed) such as `[("0.5 s", 1.0), ("1.5 s", 0.95)]`, linear
-    between them and steady after the last; `governed`, azimuth and speed as states, held by the engines' governor; `free`, the
-    same with the torque of the trim; or an `Engine`, such as `wf.GovernedEngine(failure="1 s")`. The tail
+    between them and steady after the last; `constant-over-ground`, constant in inertial space instead of about the airframe, so
+    that a yawing airframe does not turn the rotor with it; `governed`, azimuth and speed as states, held by the engines'
+    governor; `free`, the same with the torque of the trim; or an `Engine`, such as `wf.GovernedEngine(failure="1 s")`. The tail
     rotor is geared to the main rotor; a coupling step stays a step of azimuth, so that times are not equidistant; coefficients
     and inflow are counted at the nominal speed. The flight has the revolutions that its duration has at the speed it begins at.
     control: what is between sticks and blades: a `wf.Controller`, a list of them or a `wf.Augmentation`; None is the manoeuvre's

@@ -33,6 +33,8 @@ def flight_model(start: Trim, inflow: str | InflowModel | None, turned: Turning 
     """Model to fly with, its rotor turned as `turned` says, by default at constant speed."""
     turned = turned or Turning()
     model = _trimmed_model(start, inflow).at_speed(turned.corners)
+    if turned.over_ground:
+        return model.over_ground()
     if turned.engine is None:
         return model
     return model.driven(start.mean_outputs()["power"], turned.engine.governed)

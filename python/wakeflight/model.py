@@ -267,7 +267,9 @@ class Model(CompiledRotor):
     rotor_speed: Corners = ()
     """Time [s] and share of the nominal rotor speed; none at constant speed."""
     drive: str = ""
-    """Drive train of a rotor whose speed is a state, as the core reads it (JSON); empty where the speed is given."""
+    """Drive train of a rotor that engines turn, as the core reads it (JSON); empty where none do."""
+    is_over_ground: bool = False
+    """Whether the rotor keeps its speed over the ground: azimuth and speed about the airframe are then states."""
     n_controls: ClassVar[int] = 4
 
     @classmethod
@@ -351,7 +353,7 @@ class Model(CompiledRotor):
     def __reduce__(self) -> tuple[Any, ...]:
         """Compiled anew where it is needed."""
         built = (self.aircraft, self.condition, self.inflow, self.target, self.n_harmonics)
-        return _rebuilt, (built, self.rotor_speed, self.drive)
+        return _rebuilt, (built, self.rotor_speed, self.drive, self.is_over_ground)
 
     def at_speed(self, corners: Corners) -> Model:
         """This model with a rotor speed in time."""
@@ -360,7 +362,11 @@ class Model(CompiledRotor):
     @property
     def has_free_speed(self) -> bool:
         """Whether azimuth and speed of the rotor are states."""
-        return bool(self.drive)
+        return bool(self.drive) or self.is_over_ground
+
+    def over_ground(self) -> Model:
+        """This model with its rotor constant in speed over the ground."""
+        return replace(self, core=self.core.over_ground(), is_over_ground=True)
 
     def driven(self, power: float, governed: bool) -> Model:
         """This model with azimuth and speed as states, engines in balance at `power` [W], held by the governor or not."""
@@ -396,6 +402,7 @@ class Model(CompiledRotor):
         return float(self.data["accessory_power"])
 
 
-def _rebuilt(built: tuple[Any, ...], corners: Corners, drive: str) -> Model:
+def _rebuilt(built: tuple[Any, ...], corners: Corners, drive: str, over_ground: bool) -> Model:
     """A model compiled anew of what `Model.build` takes."""
-    return Model.build(*built).at_speed(corners)._driven_by(drive)
+    model = Model.build(*built).at_speed(corners)._driven_by(drive)
+    return model.over_ground() if over_ground else model

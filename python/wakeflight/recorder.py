@@ -354,7 +354,8 @@ class Recorder:
             "trim_inflow": start.inflow.name,
             **({"rotor_speed": [list(corner) for corner in model.rotor_speed]} if model.rotor_speed else {}),
             **({} if self.control.nothing else {"control": self.control.described()}),
-            **({"rotor_speed": self.turning, "drive": json.loads(model.drive)} if model.drive else {}),
+            **({"rotor_speed": self.turning} if model.has_free_speed else {}),
+            **({"drive": json.loads(model.drive)} if model.drive else {}),
             **({} if self.wind_told is None else {"wind": self.wind_told}),
             "maneuver": {
                 "name": self.maneuver.name,

@@ -19,7 +19,10 @@ from .errors import InputError
 from .units import number, quantity
 
 CONSTANT = "constant"
-"""Name of the speed that stays."""
+"""Name of the speed that stays, relative to the airframe."""
+
+OVER_GROUND = "constant-over-ground"
+"""Name of the speed that stays in inertial space, whatever the airframe does about the shaft."""
 
 SHARES = (0.5, 1.25)
 """Least and most of the nominal speed that a history may ask for."""
@@ -31,7 +34,7 @@ Corners = tuple[tuple[float, float], ...]
 """Time [s] and share of the nominal speed; none at constant speed."""
 
 RotorSpeed = str | Sequence[tuple[Any, float]]
-"""`constant`, or pairs of time, text with a unit, and share of the nominal speed."""
+"""`constant`, `constant-over-ground`, or pairs of time, text with a unit, and share of the nominal speed."""
 
 Time = TypeVar("Time", float, np.ndarray)
 

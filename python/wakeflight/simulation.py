@@ -211,12 +211,13 @@ class Simulation(Stepping):
             )
 
     def _follow_rotor(self, t: float) -> None:
-        if self.engine is None:
+        if not self.model.has_free_speed:
             return
         azimuth = self.model.layout["turn"][0]
         turn = (float(self._y[azimuth]), float(self._y[azimuth + 1]), float(self.solver.rate[azimuth + 1]))
         self.clock.reach(self._step, t, turn)
-        self._drive()
+        if self.engine is not None:
+            self._drive()
 
     @property
     def state(self) -> State:
@@ -277,7 +278,7 @@ class Simulation(Stepping):
             out = model.core.outputs(t, y, rate, inputs)
             return rate, out | {"torque": -model.hand * out["hub_moment"][2]}
 
-        if self.engine is not None:
+        if model.has_free_speed:
             speed = float(y[model.layout["turn"][0] + 1])
         elif model.rotor_speed:
             speed = model.omega * float(shares(model.rotor_speed, np.asarray(t)))

@@ -185,6 +185,11 @@ impl PySystem {
         Ok(Self { inner: self.inner.clone().with_drive(drive).map_err(invalid)? })
     }
 
+    /// The same system, its first rotor constant in speed over the ground: azimuth and speed are states.
+    fn over_ground(&self) -> Self {
+        Self { inner: self.inner.clone().over_ground() }
+    }
+
     /// Angle [rad] by which the first blade has turned at time `t` [s].
     fn turned(&self, t: f64) -> f64 {
         self.inner.main().turned(t)

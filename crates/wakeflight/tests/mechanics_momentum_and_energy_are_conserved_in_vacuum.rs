@@ -44,10 +44,11 @@ fn invariants(aircraft: &System, t: f64, y: &[f64], y_dot: &[f64], pitch: f64) -
     let mut moment = add(cross(place, momentum), times(&body.map(|row| row.map(|x| x.re)), spin));
     let mut first = scaled(place, a.mass);
     let mut strain = 0.0;
+    let speed = aircraft.layout.main().spin().map_or(rotor.turning(t, 0.0).omega, |place| y[place.speed]);
     for b in 0..rotor.n_blades {
         let start = aircraft.layout.main().modal(b).start;
         let q: [D; 5] = std::array::from_fn(|i| state[start + i]);
-        let psi = D { re: rotor.azimuth(rotor.turned(t), b), eps: [rotor.turning(t, 0.0).omega] };
+        let psi = D { re: aircraft.azimuth(0, t, y, b), eps: [speed] };
         for p in &rotor.blade.structure {
             let at = section_place(&rotor.blade, p, &q, D::cst(pitch), psi, hub, &hub_attitude);
             let s = section_momentum(p, [0.0; 3], at);
@@ -120,17 +121,24 @@ fn momentum_and_energy_are_conserved_in_vacuum() {
     let mut general = uh60a();
     general.precone = 0.05;
     general.structure.x_cg.iter_mut().for_each(|x| *x += 0.015);
-    for (blade, gravity, share) in
-        [(uh60a(), 0.0, 1.0), (general.clone(), 9.80665, 1.0), (general, 9.80665, 0.7)]
-    {
+    let cases = [
+        (uh60a(), 0.0, 1.0, false),
+        (general.clone(), 9.80665, 1.0, false),
+        (general.clone(), 9.80665, 0.7, false),
+        (general, 9.80665, 1.0, true),
+    ];
+    for (blade, gravity, share, over_ground) in cases {
         let mut aircraft = conservative_aircraft(blade, gravity);
         if share < 1.0 {
             aircraft = changing_speed(aircraft, share, 0.3);
         }
+        if over_ground {
+            aircraft = aircraft.over_ground();
+        }
         let (coarse, fine) = (fly(&aircraft, 180), fly(&aircraft, 360));
         for b in [&coarse, &fine] {
             println!(
-                "gravity {gravity}, speed to {share}: energy {:.1e} of {:.0} J exchanged, momentum {:.1e}, moment {:.1e}",
+                "gravity {gravity}, speed to {share}, over ground {over_ground}: energy {:.1e} of {:.0} J exchanged, momentum {:.1e}, moment {:.1e}",
                 b.energy, b.exchanged, b.momentum, b.moment
             );
         }

@@ -99,12 +99,13 @@ Checkpoint = Annotated[str, typer.Option("--checkpoint", help="wall clock betwee
 AllowOutside = Annotated[
     bool, typer.Option("--allow-outside", help="read tables elsewhere than beside the aircraft or rotor file, or below")
 ]
+ROTOR_SPEEDS = ("constant", "constant-over-ground", "governed", "free")
 RotorSpeedName = Annotated[
     str,
     typer.Option(
         "--rotor-speed",
-        help="constant, governed by the engines, free with the torque of the trim",
-        autocompletion=offered("constant", "governed", "free"),
+        help="constant about the airframe, constant-over-ground, governed by the engines, free with the torque of the trim",
+        autocompletion=offered(*ROTOR_SPEEDS),
     ),
 ]
 

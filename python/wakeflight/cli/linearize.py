@@ -29,6 +29,9 @@ def linearize(
     method: Annotated[
         str, typer.Option("--method", help="harmonic-decomposition, averaging")
     ] = "harmonic-decomposition",
+    rotor_speed: Annotated[
+        str, typer.Option("--rotor-speed", help="constant about the airframe, constant-over-ground")
+    ] = "constant",
     no_figures: Annotated[bool, typer.Option("--no-figures", help="write numbers alone")] = False,
     vehicle: Vehicle,
     given: Condition,
@@ -46,6 +49,7 @@ def linearize(
     from ..linear import check_method
     from ..linear import linearize as solve
     from ..linear.instants import STICKS, check_inputs
+    from ..linear.over_ground import check_speed
     from ..linear.wake import check_wake
     from ..plotting import handling as of_handling
     from ..plotting import linear as drawing
@@ -56,10 +60,11 @@ def linearize(
 
     check_method(method)
     check_inputs(names, turning=False)
-    check_wake(linear_wake, asked.inflow)
+    check_speed(rotor_speed, check_wake(linear_wake, asked.inflow))
     with Progress() as progress:
         start = trim(asked.aircraft, asked.condition, inflow=asked.inflow, progress=progress)
-    model = solve(start, names, linear_wake, order="full" if order == "full" else int(order), method=method)
+    kept = "full" if order == "full" else int(order)
+    model = solve(start, names, linear_wake, order=kept, method=method, rotor_speed=rotor_speed)
     print(f"{start.aircraft.name}, {model!r}")
     print(model.modes_table())
     print()

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Protocol, Self, TypeVar
 from ..errors import InputError
 from ..text import slug
 from ..units import STANDARD_GRAVITY, shown
-from .groups import Drawing
+from .groups import ROTOR_SPEEDS, Drawing
 from .wake import typed_options
 
 if TYPE_CHECKING:
@@ -186,8 +186,8 @@ def check_flight(revolutions: float | None, integrator: str, rotor_speed: str = 
         raise InputError.of("--revolutions", revolutions, f"must lie above 0 and at most {LONGEST_FLIGHT}")
     if integrator not in ("ida", "fixed"):
         raise InputError.choice("--integrator", integrator, ("ida", "fixed"))
-    if rotor_speed not in ("constant", "governed", "free"):
-        raise InputError.choice("--rotor-speed", rotor_speed, ("constant", "governed", "free"))
+    if rotor_speed not in ROTOR_SPEEDS:
+        raise InputError.choice("--rotor-speed", rotor_speed, ROTOR_SPEEDS)
 
 
 def wind_named(text: str | None) -> Any:

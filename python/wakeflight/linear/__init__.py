@@ -9,6 +9,7 @@ from typing import Any
 from ..arguments import checked
 from ..errors import InputError
 from ..results import flat_attributes
+from ..rotor_speed import CONSTANT, OVER_GROUND
 from ..trim import Trim
 from ..units import number
 from .build import BLADES, derivatives, periodic, with_states, with_wake, without_rates
@@ -17,6 +18,7 @@ from .identified import identified_wake
 from .instants import STICKS, check_inputs, units_of
 from .linearized import METHODS, Linearized
 from .names import INFLOW
+from .over_ground import check_speed
 from .quasi_static import wake_gains
 from .statespace import LinearModel
 from .three_states import inflow_constants
@@ -39,6 +41,7 @@ def linearize(
     azimuths: int | None = None,
     stick_rates: bool = True,
     tolerance: float = 1e-3,
+    rotor_speed: str = CONSTANT,
 ) -> LinearModel:
     """Linear model about a trim: x_dot = A x + B u, y = C x + D u, u and y about trim.
 
@@ -52,6 +55,8 @@ def linearize(
     wake, in hover too where it does not repeat itself (about a minute). tolerance: Hankel singular value over the largest, from
     which such a state is kept.
     blades: `multiblade` coordinates, or `individual` ones.
+    rotor_speed: `constant`, about the airframe, which then turns the whole rotor as it yaws, or `constant-over-ground`, with
+    dynamic or frozen inflow.
     order: None or `full`; otherwise as for `LinearModel.reduce`.
     method: `harmonic-decomposition`, or `averaging` over azimuth. harmonics: of the state, kept beside its mean; by default those
     that occur with equal blades up to their number. azimuths: of the revolution at which derivatives are taken, 36 by default.
@@ -73,9 +78,10 @@ def linearize(
         raise InputError.of("order", order, "must be a number of states, names of states to keep, or full")
     start.inflow.check_first_order("linearize")
     wake = check_wake(wake, start.inflow)
+    check_speed(rotor_speed, wake)
     tolerance = number("tolerance", tolerance, 1e-6, 0.5)
     n = _azimuths(azimuths, start)
-    raw = derivatives(start, asked, n)
+    raw = derivatives(start, asked, n, rotor_speed == OVER_GROUND)
     if not stick_rates:
         raw = without_rates(raw)
     said: dict[str, Any] = {}
@@ -107,6 +113,7 @@ def linearize(
         "harmonics": list(kept),
         "azimuths": n,
         "stick_rates": stick_rates,
+        "rotor_speed": rotor_speed,
         "n_modes": start.aircraft.discretisation.n_modes,
         "n_elements": start.aircraft.discretisation.n_elements,
         **said,

@@ -32,14 +32,14 @@ class Raw:
     held: np.ndarray
 
 
-def derivatives(start: Trim, inputs: tuple[str, ...], n: int) -> Raw:
+def derivatives(start: Trim, inputs: tuple[str, ...], n: int, over_ground: bool = False) -> Raw:
     """Derivatives at `n` azimuths, computed for one passage of the blades and renumbered for the others."""
     where = places(start.model)
     if n < 8 or n % where.n_blades:
         raise InputError.of(
             "azimuths", n, f"must be a multiple of the number of blades, {where.n_blades}, and at least 8"
         )
-    first: Instants = along(start, where, inputs, n)
+    first: Instants = along(start, where, inputs, n, over_ground)
     orders = [renumbered(where, part) for part in range(where.n_blades)]
     stations = (first.held.shape[2] - 1) // where.n_blades if first.held.shape[2] else 0
     held = []

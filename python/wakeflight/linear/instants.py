@@ -15,10 +15,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .. import _core
 from ..attitude import euler_angles
 from ..errors import InputError
 from ..trim import INCH, Trim
 from .names import BODY, MOTION, Places
+from .over_ground import without_turn
 
 STICKS = ("lateral", "longitudinal", "collective", "pedal")
 OTHERS = {"stabilator": "rad", "wind_north": "m/s", "wind_east": "m/s", "wind_down": "m/s"}
@@ -60,10 +62,14 @@ def units_of(inputs: tuple[str, ...]) -> tuple[tuple[str, str, float], ...]:
     return tuple((name, OTHERS.get(name, "in"), 1.0 if name in OTHERS else INCH) for name in inputs)
 
 
-def along(start: Trim, where: Places, inputs: tuple[str, ...], n: int) -> Instants:
-    """Derivatives at `n` azimuths of a revolution, of which the first of equal parts is gone through."""
+def along(start: Trim, where: Places, inputs: tuple[str, ...], n: int, over_ground: bool) -> Instants:
+    """Derivatives at `n` azimuths of a revolution, of which the first of equal parts is gone through.
+
+    over_ground: of a rotor constant in speed over the ground instead of about the airframe.
+    """
+    core = start.model.core.over_ground() if over_ground else start.model.core
     psi = 2 * np.pi * np.arange(n // where.n_blades) / n
-    sides = [[_at(start, where, inputs, t, side) for t in psi / start.model.omega] for side in (-HAIR, HAIR)]
+    sides = [[_at(start, core, where, inputs, t, side) for t in psi / start.model.omega] for side in (-HAIR, HAIR)]
     a, b, b_rate, held = (
         0.5 * (np.array(left) + np.array(right)) for left, right in zip(*map(_columns, sides), strict=True)
     )
@@ -74,9 +80,12 @@ def _columns(instants: list[tuple[np.ndarray, ...]]) -> list[tuple[np.ndarray, .
     return list(zip(*instants, strict=True))
 
 
-def _at(start: Trim, where: Places, inputs: tuple[str, ...], t: float, side: float) -> tuple[np.ndarray, ...]:
+def _at(
+    start: Trim, core: _core.System, where: Places, inputs: tuple[str, ...], t: float, side: float
+) -> tuple[np.ndarray, ...]:
     """A, B, B_rate, B_held at one instant, the air `side` [m/s] further to one side."""
-    core, total = start.model.core, start.model.layout["size"]
+    layout = core.layout()
+    total, (azimuth, after) = layout["size"], layout["turn"]
     y, y_dot = core.trim_state(start.problem, start.x, t)
     y[where.motion[1]] += side
     acting = start.inputs(t)
@@ -84,6 +93,10 @@ def _at(start: Trim, where: Places, inputs: tuple[str, ...], t: float, side: flo
     core.jacobian(t, y, y_dot, acting, (1.0, 0.0), stiffness)
     core.jacobian(t, y, y_dot, acting, (0.0, 1.0), mass)
     names, by_inputs = core.input_slopes(t, y, y_dot, acting)
+    if after > azimuth:
+        turn = (azimuth, azimuth + 1)
+        stiffness, mass, left = without_turn(stiffness, mass, y_dot, turn, where.motion[3:], start.model.omega)
+        y, by_inputs = y[left], by_inputs[left]
     column = {name: i for i, (name, _) in enumerate(names)}
     by_asked = by_inputs[:, [column[name] for name in inputs]]
     by_rates = np.zeros_like(by_asked)

@@ -28,10 +28,12 @@ from ..handling import handling_qualities
 from ..inflow import MODELS, STAND_MODELS, inflow_model, trim_model
 from ..linear import check_method, linearize
 from ..linear.instants import check_inputs
+from ..linear.over_ground import check_speed
 from ..linear.wake import check_wake
 from ..maneuver_files import load_maneuver
 from ..model import flight_regime
 from ..perturbation import offsets_of
+from ..rotor_speed import CONSTANT
 from ..trim import trim
 from ..tunnel import check as check_stand
 from ..tunnel import tunnel
@@ -211,7 +213,7 @@ def _fly(start: Any, given: Mapping[str, Any], inflow: Any) -> Any:
 
 def _check_linear(given: Mapping[str, Any], aircraft: Any, condition: Any, inflow: Any) -> None:
     _check_types(linearize, given)
-    check_wake(given.get("wake"), inflow)
+    check_speed(given.get("rotor_speed", CONSTANT), check_wake(given.get("wake"), inflow))
     if "method" in given:
         check_method(given["method"])
     if "inputs" in given:

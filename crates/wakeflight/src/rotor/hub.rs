@@ -99,7 +99,7 @@ impl Rotor {
     #[inline(always)]
     pub fn turned(&self, t: f64) -> f64 {
         match &self.speed {
-            RotorSpeed::Constant | RotorSpeed::Free(_) => self.omega * t,
+            RotorSpeed::Constant | RotorSpeed::Free(_) | RotorSpeed::OverGround => self.omega * t,
             RotorSpeed::Prescribed(history) => history.azimuth(t),
         }
     }
@@ -107,7 +107,7 @@ impl Rotor {
     /// Time [s] at which the first blade has turned by `psi` [rad]; where it is a state, at the nominal speed.
     pub fn time(&self, psi: f64) -> f64 {
         match &self.speed {
-            RotorSpeed::Constant | RotorSpeed::Free(_) => psi / self.omega,
+            RotorSpeed::Constant | RotorSpeed::Free(_) | RotorSpeed::OverGround => psi / self.omega,
             RotorSpeed::Prescribed(history) => history.time(psi),
         }
     }
@@ -121,7 +121,9 @@ impl Rotor {
     #[inline(always)]
     pub fn turning(&self, t: f64, begin: f64) -> Turning {
         match &self.speed {
-            RotorSpeed::Constant | RotorSpeed::Free(_) => Turning::steady(self.omega),
+            RotorSpeed::Constant | RotorSpeed::Free(_) | RotorSpeed::OverGround => {
+                Turning::steady(self.omega)
+            }
             RotorSpeed::Prescribed(history) => history.turning(t, begin),
         }
     }
@@ -170,7 +172,7 @@ impl Rotor {
     pub fn drive(&self) -> Option<&Drive> {
         match &self.speed {
             RotorSpeed::Free(drive) => Some(drive),
-            RotorSpeed::Constant | RotorSpeed::Prescribed(_) => None,
+            RotorSpeed::Constant | RotorSpeed::Prescribed(_) | RotorSpeed::OverGround => None,
         }
     }
 

@@ -73,6 +73,19 @@ pub enum RotorSpeed {
     Prescribed(SpeedHistory),
     /// Azimuth and speed are states that a drive moves.
     Free(Drive),
+    /// They are states, and the rotor keeps what it turns at over the ground, whatever its carrier does.
+    OverGround,
+}
+
+impl RotorSpeed {
+    /// Whether azimuth and speed are states.
+    #[inline(always)]
+    pub fn is_state(&self) -> bool {
+        match self {
+            Self::Constant | Self::Prescribed(_) => false,
+            Self::Free(_) | Self::OverGround => true,
+        }
+    }
 }
 
 /// Why a history of rotor speed cannot be followed.

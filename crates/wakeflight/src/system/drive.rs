@@ -1,4 +1,5 @@
-//! Azimuth and speed of a rotor as states: their rows of F, the reaction on the carrier, the start in balance.
+//! Azimuth and speed of a rotor as states, turned by a drive or constant over the ground: their rows of F, the reaction on the carrier,
+//! the start in balance.
 
 use super::instant::{Acting, Instant};
 use super::layout::{Layout, RotorLayout, RotorStates, SpeedStates};
@@ -13,12 +14,25 @@ use crate::rotor::speed::RotorSpeed;
 impl System {
     /// The same system, its first rotor turned by `drive`: azimuth and speed are states. What is geared to it (closed-form rotors,
     /// accessories) loads it.
-    pub fn with_drive(mut self, drive: Drive) -> Result<Self, DriveError> {
+    pub fn with_drive(self, drive: Drive) -> Result<Self, DriveError> {
         let first = match drive.governor {
             Some(_) => SpeedStates::Governed,
             None => SpeedStates::Free,
         };
-        self.rotors[0].speed = RotorSpeed::Free(drive.checked()?);
+        Ok(self.with_states(RotorSpeed::Free(drive.checked()?), first))
+    }
+
+    /// The same system, its first rotor constant in speed over the ground: azimuth and speed about the airframe are states.
+    ///
+    /// The spin about the shaft that the blades have in inertial space stays what it is where a flight begins: w' = -w_b', with w_b
+    /// the rate of the hub's carrier about the shaft, in the sense of the rotor. It is the limit of a drive whose hub has an inertia
+    /// without bound; the torque that it takes is the engines', and reacts on the airframe that carries them.
+    pub fn over_ground(self) -> Self {
+        self.with_states(RotorSpeed::OverGround, SpeedStates::OverGround)
+    }
+
+    fn with_states(mut self, turned: RotorSpeed, first: SpeedStates) -> Self {
+        self.rotors[0].speed = turned;
         let states = self.layout.rotors.iter().enumerate().map(|(r, l)| RotorStates {
             name: l.name.clone(),
             n_blades: l.n_blades,
@@ -27,7 +41,7 @@ impl System {
             speed: if r == 0 { first } else { l.speed },
         });
         self.layout = Layout::new(self.layout.free, states, self.layout.closed.clone());
-        Ok(self)
+        self
     }
 
     fn drive_state<S: Real, U: Acting<S>>(
@@ -45,10 +59,24 @@ impl System {
         Some((drive, DriveState { excess, omega_dot, integral, power }))
     }
 
-    /// Torque of the engines on rotor `r`, at its speed [N m], as its clutch passes it on; none where the speed is given.
+    /// Torque of the engines on rotor `r`, at its speed [N m], as its clutch passes it on; none where no engine turns it.
     pub fn engine_torque<S: Real, U: Acting<S>>(&self, r: usize, at: &Instant<S, U>) -> Option<S> {
         let (_, state) = self.drive_state(r, at)?;
         Some(clutched(state.power) / (state.excess + self.rotors[r].omega))
+    }
+
+    /// Torque [N m] that keeps the speed of a rotor over the ground under a `moment` about its shaft, with what is `geared` to it [W];
+    /// below zero it brakes: there is no clutch. None where another law moves the rotor.
+    pub(super) fn keeping_torque(
+        &self,
+        r: usize,
+        at: &Instant<f64>,
+        (moment, geared): (f64, f64),
+    ) -> Option<f64> {
+        match self.rotors[r].speed {
+            RotorSpeed::OverGround => Some(geared / self.spin(r, at).turning.omega - moment),
+            RotorSpeed::Constant | RotorSpeed::Prescribed(_) | RotorSpeed::Free(_) => None,
+        }
     }
 
     /// Rows of azimuth, speed and engines of every rotor that has them; `drawn`: power of what is geared to the first [W].
@@ -60,12 +88,17 @@ impl System {
         f: &mut [S],
     ) {
         for ((r, _, l), share) in self.each_rotor().zip(shares) {
-            let (Some(place), Some((drive, state))) = (l.spin(), self.drive_state(r, at)) else { continue };
+            let Some(place) = l.spin() else { continue };
             let omega = at.y[place.speed];
+            f[place.azimuth] = at.y_dot[place.azimuth] - omega;
+            let carrier_dot = self.hub_motion(r, at.y, at.y_dot).omega_dot.z;
+            let Some((drive, state)) = self.drive_state(r, at) else {
+                f[place.speed] = at.y_dot[place.speed] + carrier_dot;
+                continue;
+            };
             let geared = if r == 0 { drawn } else { S::zero() };
             let torque = (clutched(state.power) - geared) / omega + share.loads.moment.z;
-            let carried = self.hub_motion(r, at.y, at.y_dot).omega_dot.z * drive.hub_inertia;
-            f[place.azimuth] = at.y_dot[place.azimuth] - omega;
+            let carried = carrier_dot * drive.hub_inertia;
             f[place.speed] = at.y_dot[place.speed] - (torque - carried) / drive.inertia;
             if let (Some(governor), Some(engine)) = (&drive.governor, l.engine()) {
                 let [integral, power] = governor.rates(&state, at.inputs.engine.fuel.felt());

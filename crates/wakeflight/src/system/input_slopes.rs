@@ -1,7 +1,7 @@
 //! Exact derivatives of F by what acts: controls, their rates, stabilator, held inflow, wind, speed of the rotors.
 //!
 //! A given speed is differentiated at the azimuths that the blades have: an azimuth of its own is not among what acts. Where the speed
-//! is a state, torque and fuel of its engines act.
+//! is a state, torque and fuel of its engines act; one that is constant over the ground has none.
 
 use super::instant::{Disturbance, EngineInput, HeldInflow, Inputs, Instant};
 use super::layout::Layout;
@@ -41,7 +41,7 @@ fn numbers<'a, U>(inputs: &'a mut Inputs<U>, layout: &Layout) -> Vec<&'a mut U> 
         let given = disturbance.speed.iter_mut().zip(&layout.rotors).filter(|(_, l)| l.spin().is_none());
         all.extend(disturbance.wind.iter_mut().chain(given.flat_map(|(speed, _)| speed.iter_mut())));
     }
-    if layout.rotors.iter().any(|l| l.spin().is_some()) {
+    if layout.rotors.iter().any(|l| l.speed.has_engines()) {
         all.extend([&mut inputs.engine.torque, &mut inputs.engine.fuel]);
     }
     all
@@ -133,7 +133,7 @@ impl System {
             names.push((format!("rotor.{}.speed", l.name), "rad/s"));
             names.push((format!("rotor.{}.speed_rate", l.name), "rad/s2"));
         }
-        if self.layout.rotors.iter().any(|l| l.spin().is_some()) {
+        if self.layout.rotors.iter().any(|l| l.speed.has_engines()) {
             names.extend(
                 [("engine_torque", "N m"), ("engine_fuel", "1")].map(|(n, unit)| (n.to_string(), unit)),
             );

@@ -28,7 +28,9 @@ pub enum SpeedStates {
     /// Nothing: it is given.
     #[default]
     Given,
-    /// Azimuth and speed.
+    /// Azimuth and speed, which is constant over the ground.
+    OverGround,
+    /// Azimuth and speed, by a torque that is given.
     Free,
     /// These, the integral of a governor and the power of the engines.
     Governed,
@@ -38,8 +40,16 @@ impl SpeedStates {
     fn len(self) -> usize {
         match self {
             Self::Given => 0,
-            Self::Free => 2,
+            Self::OverGround | Self::Free => 2,
             Self::Governed => 4,
+        }
+    }
+
+    /// Whether engines turn the rotor.
+    pub fn has_engines(self) -> bool {
+        match self {
+            Self::Given | Self::OverGround => false,
+            Self::Free | Self::Governed => true,
         }
     }
 }
@@ -255,7 +265,7 @@ mod tests {
 
     #[test]
     fn every_state_has_one_place_and_one_name() {
-        let kinds = [SpeedStates::Given, SpeedStates::Free, SpeedStates::Governed];
+        let kinds = [SpeedStates::Given, SpeedStates::OverGround, SpeedStates::Free, SpeedStates::Governed];
         for (free, speed) in [true, false].into_iter().flat_map(|free| kinds.map(|kind| (free, kind))) {
             let rotors =
                 [rotor("main", (4, 3), true, speed), rotor("tail", (2, 1), false, SpeedStates::Given)];

@@ -85,6 +85,11 @@ impl System {
             o.moment = loads.moment.array();
             o.power = [loads.closed_power, airframe.accessory_power];
         }
+        for (r, share) in shares.iter().enumerate() {
+            let geared = if r == 0 { o.power[0] + o.power[1] } else { 0.0 };
+            let keeping = self.keeping_torque(r, at, (share.loads.moment.z, geared));
+            o.rotors[r].engine_torque = o.rotors[r].engine_torque.or(keeping);
+        }
         o
     }
 

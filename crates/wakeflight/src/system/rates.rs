@@ -51,7 +51,7 @@ impl RigidRates {
     pub fn new(system: &System) -> Option<Self> {
         // a speed that is a state shares the inertia of all: the implicit steps have it
         let rigid =
-            |r: &Rotor| r.blade.rigid.is_some() && r.blade.n_modes <= MOST_HINGES && r.drive().is_none();
+            |r: &Rotor| r.blade.rigid.is_some() && r.blade.n_modes <= MOST_HINGES && !r.speed.is_state();
         if !system.rotors.iter().all(rigid) {
             return None;
         }

@@ -151,7 +151,7 @@ impl System {
         b: usize,
     ) -> PitchMotion<S> {
         let rotor = &self.rotors[r];
-        if let RotorSpeed::Free(_) = rotor.speed {
+        if rotor.speed.is_state() {
             let (stick, rate) = (inputs.stick_at(t).map(Acting::felt), inputs.stick_rate.map(Acting::felt));
             return rotor.blade_pitch(stick, rate, rotor.azimuth(spin.psi, b), spin.turning).into();
         }
