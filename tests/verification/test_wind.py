@@ -21,7 +21,7 @@ def start(uh60a):
 
 @pytest.fixture(scope="module")
 def on_wake(uh60a):
-    # in single precision the last bit of a marker's place can turn one velocity by 1e-10 of the tip speed, and the flights by 1e-8
+    # in single precision the last bit of a marker's place can turn one velocity by 1e-10 of the tip speed, flights by 1e-8
     coarse = wf.RelaxationWake(turns=2, azimuth_step="15 deg", precision="double")
     return wf.trim(uh60a.with_rigid_blades(), wf.FlightCondition(speed="80 kt"), inflow=coarse)
 
