@@ -220,7 +220,7 @@ impl<'a, P: Path> Follower<'a, P> {
 
     /// The point of the path in the plane across `row` through `point`, and the corrections it took.
     fn correct(&mut self, mut point: Vec<f64>, row: &[f64]) -> Option<(Vec<f64>, usize)> {
-        let (n, scale) = (self.n, self.scale);
+        let scale = self.scale;
         let mut before = f64::INFINITY;
         for correction in 0..=MAX_CORRECTIONS {
             if !self.evaluate(&point) {
