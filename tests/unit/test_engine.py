@@ -22,7 +22,7 @@ def test_a_rotor_speed_is_a_name_a_history_or_an_engine():
 @pytest.mark.parametrize(
     ("make", "named"),
     [
-        (lambda: turning("steady"), "allowed: constant, governed, free"),
+        (lambda: turning("steady"), "allowed: constant, constant-over-ground, governed, free"),
         (lambda: turning(3.0), "constant or pairs"),
         (lambda: GovernedEngine(1.0), "failure"),
         (lambda: GovernedEngine("-1 s"), "failure"),
