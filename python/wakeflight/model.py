@@ -402,7 +402,7 @@ class Model(CompiledRotor):
         return float(self.data["accessory_power"])
 
 
-def _rebuilt(built: tuple[Any, ...], corners: Corners, drive: str, over_ground: bool) -> Model:
+def _rebuilt(built: tuple[Any, ...], corners: Corners, drive: str, over_ground: bool = False) -> Model:
     """A model compiled anew of what `Model.build` takes."""
     model = Model.build(*built).at_speed(corners)._driven_by(drive)
     return model.over_ground() if over_ground else model
