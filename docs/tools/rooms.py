@@ -30,6 +30,7 @@ ROOMS = {
         "flight*",
         "recorder",
         "resuming",
+        "run_attributes",
         "runlog",
         "simulation",
         "stepping",

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Protocol
@@ -15,9 +14,9 @@ from .control import ControlLog
 from .errors import NumericalFailure, known
 from .maneuvers import Maneuver
 from .model import Model
-from .modes import mode_labels
 from .monitors import Monitor, Places, rotor, variables
 from .results.frames import body_of_hub
+from .run_attributes import convergence_attributes, described
 from .runlog import MemoryRows, MemoryWakes
 from .wind import passing
 
@@ -250,7 +249,10 @@ class Recorder:
         return assemble(
             arrays,
             {
-                **self._describe(),
+                **described(
+                    *(self.start, model, self.maneuver, self.control, self.turning, self.wind_told),
+                    revolutions=(n - 1) / model.steps_per_revolution,
+                ),
                 **attributes,
                 **counted,
                 **self.log.attributes(),
@@ -341,65 +343,6 @@ class Recorder:
             "relaxation_iterations_trim": trim["relaxation_iterations"],
         }
 
-    def _describe(self) -> dict[str, Any]:
-        start, model = self.start, self.model
-        mean = start.mean_outputs()
-        configuration = {
-            "aircraft": start.aircraft.name,
-            "loading": start.aircraft.loading_name or "",
-            **({"varied": start.aircraft.changes} if start.aircraft.changes else {}),
-            "condition": start.condition.as_attributes(),
-            "inflow": {"model": model.inflow.name, **model.inflow.as_attributes()},
-            "discretisation": start.aircraft.discretisation._asdict(),
-            "trim_inflow": start.inflow.name,
-            **({"rotor_speed": [list(corner) for corner in model.rotor_speed]} if model.rotor_speed else {}),
-            **({} if self.control.nothing else {"control": self.control.described()}),
-            **({"rotor_speed": self.turning} if model.has_free_speed else {}),
-            **({"drive": json.loads(model.drive)} if model.drive else {}),
-            **({} if self.wind_told is None else {"wind": self.wind_told}),
-            "maneuver": {
-                "name": self.maneuver.name,
-                "adapted": list(self.maneuver.adapted),
-                "controls": {
-                    stick: [list(corner) for corner in corners] for stick, corners in self.maneuver.corners_of
-                },
-            },
-        }
-        return {
-            "aircraft": start.aircraft.name,
-            "maneuver": self.maneuver.name,
-            "maneuver_adapted": "; ".join(self.maneuver.adapted),
-            "inflow_model": model.inflow.name,
-            "radius": model.rotor["radius"],
-            "omega": model.omega,
-            "blade_modes": mode_labels(start.aircraft),
-            "geometry": json.dumps(start.aircraft.geometry | _sections(model)),
-            "configuration": configuration,
-            "condition": start.condition.as_attributes(),
-            "ct": mean["ct"],
-            "ct_sigma": mean["ct"] / start.aircraft.solidity,
-            "mu": mean["mu"],
-            "power": mean["power"],
-            "revolutions": (self.n_recorded - 1) / model.steps_per_revolution,
-        }
-
-
-def _sections(model: Model) -> dict[str, Any]:
-    """What forces are made from by their coefficients: chord, width and lifting width of the blade elements [m], the air."""
-    rotor = model.rotor
-    widths = np.array(rotor["widths"], dtype=float)
-    # a free wake has its own loss at the tip; with dynamic inflow nothing lifts beyond the factor
-    factor = float(model.aircraft.rotor.tip_loss_factor) if model.inflow.is_dynamic else 1.0
-    inner = model.stations - 0.5 * widths
-    lifting = np.clip(factor * rotor["radius"] - inner, 0.0, widths)
-    return {
-        "chords": [float(each) for each in rotor["chords"]],
-        "widths": widths.tolist(),
-        "lifting": lifting.tolist(),
-        "density": float(model.density),
-        "speed_of_sound": float(model.speed_of_sound),
-    }
-
 
 def check_sample(
     model: Model, t: float, y: np.ndarray, stick: np.ndarray, azimuth: np.ndarray, inflow: np.ndarray, mach: np.ndarray
@@ -441,14 +384,3 @@ def at_nodes(of_segments: np.ndarray) -> np.ndarray:
     ends = np.concatenate([squared[:, :1], squared, squared[:, -1:]], axis=1)
     found: np.ndarray = np.sqrt((ends[:, 1:] + ends[:, :-1]) / 2)
     return found
-
-
-def convergence_attributes(phase: ConvergencePhase) -> dict[str, Any]:
-    """Figures of the convergence phase: change per revolution, drift of the lift."""
-    if not phase.change:
-        return {}
-    return {
-        "convergence_change": [round(c, 12) for c in phase.change],
-        "segment_evaluations_convergence": phase.segment_evaluations,
-        "convergence_lift_drift": phase.circulation_lift[-1] / phase.circulation_lift[0] - 1.0,
-    }

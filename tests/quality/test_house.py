@@ -46,7 +46,7 @@ PYTHON_ORDER = (
     {"wind"},
     {"integrators", "exchange"},
     {"trim", "stepping"},
-    {"flight_start"},
+    {"flight_start", "run_attributes"},
     {"simulation"},
     {"recorder", "transfer"},
     {"flight_monitors"},

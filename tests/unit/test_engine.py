@@ -6,7 +6,8 @@ import math
 import pytest
 
 import wakeflight as wf
-from wakeflight.engine import FreeEngine, GovernedEngine, turning
+from wakeflight.cli.groups import ROTOR_SPEEDS
+from wakeflight.engine import NAMES, FreeEngine, GovernedEngine, turning
 from wakeflight.rotor_speed import FreeClock
 
 
@@ -89,3 +90,7 @@ def test_the_aircraft_says_what_turns_with_its_rotor(uh60a):
         _ = bo105.drive_inertia
     with pytest.raises(wf.InputError, match=r"needs drive\.governor_proportional"):
         _ = bo105.governor
+
+
+def test_the_command_line_offers_every_name():
+    assert ROTOR_SPEEDS == NAMES

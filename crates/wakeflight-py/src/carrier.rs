@@ -1,7 +1,8 @@
 //! What meets the air: controls, hub motion, blade motion of a system, checked on their way to the exchange.
 
 use crate::checks::{Motion, Row, Table, invalid, map, numbers, sized};
-use crate::system::{PyInputs, PySystem};
+use crate::inputs::PyInputs;
+use crate::system::PySystem;
 use pyo3::prelude::*;
 use wakeflight::blade::hub_motion::HubMotion;
 use wakeflight::blade::kinematics::ModalMotion;

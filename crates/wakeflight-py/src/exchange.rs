@@ -1,8 +1,9 @@
 //! The exchange with the air, and the steady wake of a trim: conversions and checks, the GIL released.
 
 use crate::checks::{Array, Motion, Named, Row, Table, array, invalid, map, pack, unpack, vectors};
+use crate::inputs::{PyInputs, SectionMemory, remembered};
 use crate::options::{marching_options, relaxation_options, wake_options};
-use crate::system::{PyInputs, PySystem, SectionMemory, remembered};
+use crate::system::PySystem;
 use crate::wake::{RelaxationWake, TimeMarchingWake, py_error};
 use pyo3::prelude::*;
 use wakeflight::rotor::exchange::{

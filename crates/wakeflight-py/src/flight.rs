@@ -1,7 +1,8 @@
 //! Fixed-step integration and derivatives for a solver from elsewhere: conversions and checks, the GIL released.
 
 use crate::checks::{Array, Room, Row, array, failed, invalid, numbers, pack, room, unpack};
-use crate::system::{PyInputs, PySystem};
+use crate::inputs::PyInputs;
+use crate::system::PySystem;
 use numpy::Ix2;
 use pyo3::prelude::*;
 use wakeflight::integrate::steps::Steps;

@@ -9,6 +9,7 @@ mod checks;
 mod exchange;
 mod flight;
 mod inflow;
+mod inputs;
 mod options;
 mod system;
 mod trim;
@@ -29,8 +30,9 @@ mod _core {
         exchange::{PyExchange, PySteadyWake},
         flight::{FixedStep, Linearised},
         inflow::{descent_inflow, momentum_inflow, pitt_peters_rate},
+        inputs::{PyInputs, SectionMemory},
         options::{check_options, option_descriptors},
-        system::{PyInputs, PySystem, SectionMemory},
+        system::PySystem,
         trim::{TrimLayout, TrimProblem},
         vortex::{build_commit, induced_velocity, instruction_set, set_threads},
         wake::{RelaxationWake, TimeMarchingWake, near_wake_matrix, wing_circulation},

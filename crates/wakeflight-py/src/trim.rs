@@ -1,7 +1,7 @@
 //! Trim: problem and layout, the same for an aircraft and a rotor on a stand.
 
 use crate::checks::{Array, Row, Table, invalid, pack, unpack, vectors};
-use crate::system::at_parts;
+use crate::inputs::at_parts;
 use pyo3::prelude::*;
 use wakeflight::system::model::System;
 use wakeflight::trim::equation::Equation;

@@ -55,7 +55,7 @@ impl ThinSection {
         let wind_c = wind.dot(c);
         let quarter_n = wind.dot(n) - spin_n * station.quarter;
         let three_quarter_n = wind_three_quarter.dot(n) - spin_n * station.three_quarter;
-        let speed = (wind_c * wind_c + quarter_n * quarter_n + 1e-12).sqrt();
+        let speed = speed_of([wind_c, quarter_n]);
         let mach = speed / air.speed_of_sound;
 
         let three_quarter_c = wind_three_quarter.dot(c);

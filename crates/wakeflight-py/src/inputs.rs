@@ -1,0 +1,100 @@
+//! What acts on the system over a coupling step: controls, held inflow, engines, wind, memory of the sections.
+
+use crate::checks::{Table, columns, invalid, pack};
+use pyo3::prelude::*;
+use wakeflight::blade::memory_rows::MemoryRows;
+use wakeflight::system::instant::{Disturbance, EngineInput, Gust, HeldInflow, HeldMemory, Inputs};
+use wakeflight::wake::airframe::{AtParts, PARTS};
+
+/// Memory of sections that remember, blade by blade, where a coupling step begins; see `wakeflight.exchange`.
+#[pyclass(frozen)]
+pub struct SectionMemory(pub(crate) MemoryRows);
+
+#[pymethods]
+impl SectionMemory {
+    /// Everything of it, exact.
+    fn to_bytes(&self) -> PyResult<Vec<u8>> {
+        pack(&self.0)
+    }
+}
+
+/// Memory for Python; None where sections do not remember.
+pub(crate) fn remembered(memory: &MemoryRows) -> Option<SectionMemory> {
+    (!memory.is_empty()).then(|| SectionMemory(memory.clone()))
+}
+
+/// What acts on the system over one coupling step; see `wakeflight.flight`.
+#[pyclass(name = "Inputs", frozen)]
+pub struct PyInputs(pub(crate) Inputs);
+
+#[pymethods]
+impl PyInputs {
+    /// Sticks [m] and rates [m/s] at `t_start` [s]; inflow (n_blades, n_stations), None for the states of y.
+    #[new]
+    #[pyo3(signature = (stick, stick_rate, t_start, inflow, mean_inflow, stabilator_incidence, vacuum=false))]
+    fn new(
+        stick: [f64; 4],
+        stick_rate: [f64; 4],
+        t_start: f64,
+        inflow: Option<Table>,
+        mean_inflow: f64,
+        stabilator_incidence: f64,
+        vacuum: bool,
+    ) -> PyResult<Self> {
+        let inflow = match (inflow, vacuum) {
+            (_, true) => HeldInflow::Vacuum,
+            (None, false) => HeldInflow::Dynamic,
+            (Some(map), false) => {
+                HeldInflow::Stations { inflow: map.as_array().iter().copied().collect(), mean: mean_inflow }
+            }
+        };
+        Ok(Self(Inputs {
+            stick,
+            stick_rate,
+            t_start,
+            inflow: vec![inflow],
+            wash: None,
+            sections: Vec::new(),
+            stabilator_incidence,
+            engine: EngineInput::default(),
+            disturbance: None,
+        }))
+    }
+
+    /// The same with engines: torque of those without a governor [N m], share of the fuel of those with one.
+    fn driven(&self, torque: f64, fuel: f64) -> Self {
+        Self(Inputs { engine: EngineInput { torque, fuel }, ..self.0.clone() })
+    }
+
+    /// The same in a wind: at the origin [m/s], inertial axes; where it differs from place to place, at the hub less that, its rates
+    /// about the airframe [rad/s], and what it adds to the inflow at the stations.
+    #[pyo3(signature = (origin, gust=None))]
+    fn blown(&self, origin: [f64; 3], gust: Option<GustRows>) -> Self {
+        let gust = gust.map(|(at_hub, turn, stations)| {
+            let stations = stations.map_or_else(Vec::new, |rows| rows.as_array().iter().copied().collect());
+            Gust { at_hub, turn, stations }
+        });
+        let disturbance = Some(Disturbance { wind: origin, gust, speed: vec![[0.0; 2]] });
+        Self(Inputs { disturbance, ..self.0.clone() })
+    }
+
+    /// The same with the air of the wake at fuselage, stabilator, fin and tail rotor (4, 3) [m/s], body axes, in place of washes.
+    fn washed(&self, wash: Table) -> PyResult<Self> {
+        Ok(Self(Inputs { wash: Some(at_parts(&wash)?), ..self.0.clone() }))
+    }
+
+    /// The same with the memory of sections that remember, from the begin of the coupling step at `begun` [s].
+    fn remembering(&self, sections: &SectionMemory, begun: f64) -> Self {
+        Self(Inputs { sections: vec![HeldMemory { memory: sections.0.clone(), begun }], ..self.0.clone() })
+    }
+}
+
+/// Air at the parts of an airframe (4, 3).
+pub(crate) fn at_parts(wash: &Table) -> PyResult<AtParts> {
+    let rows = columns("wash", wash)?;
+    rows.try_into()
+        .map_err(|rows: Vec<[f64; 3]>| invalid(format!("wash: {} parts, {} needed", rows.len(), PARTS.len())))
+}
+
+/// Where a wind is not the same everywhere: at the hub less that at the origin, its rates, rows of inflow by station.
+type GustRows<'py> = ([f64; 3], [f64; 3], Option<Table<'py>>);
