@@ -57,11 +57,12 @@ class Exchange:
         """Azimuth index of every blade after `step` steps."""
         return [(step + b * self.n // self.model.n_blades) % self.n for b in range(self.model.n_blades)]
 
-    def held(self, step: int) -> tuple[np.ndarray | None, float]:
-        """Total inflow (n_blades, n_stations) over the step that begins, None where it is in the state, and its disk mean.
+    def held(self, step: int) -> tuple[np.ndarray | None, float, np.ndarray | None]:
+        """Total inflow (n_blades, n_stations) where a step begins, None where it is in the state; disk mean; change over the step.
 
         A marching wake's mean is that of the latest passage of every azimuth: over the blades' present azimuths alone it would
-        swing by n per revolution. A map by azimuth enters with the mean of its values at the two ends of the step.
+        swing by n per revolution. The change is that of a map by azimuth, or the one that the blade before had there; None where
+        the inflow stays as it is.
         """
         return self.core.held(step)
 

@@ -15,7 +15,7 @@ from .atomic import write_bytes
 from .errors import InputError
 
 MAGIC = b"WKFL-SNAPSHOT\n"
-VERSION = 3
+VERSION = 4
 
 
 @dataclass(frozen=True)

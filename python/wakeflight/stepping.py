@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""One coupling step of what carries a rotor: inflow held, states integrated, exchange with the air [ribera2004, Fig. 2]."""
+"""One coupling step of what carries a rotor: inflow given, states integrated, exchange with the air [ribera2004, Fig. 2]."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class Observer(Protocol):
 
 
 class Stepping:
-    """A rotor and what carries it, stepped through time: inflow held over a coupling step, states integrated over it, exchange.
+    """A rotor and what carries it, stepped through time: inflow over a coupling step, states integrated over it, exchange.
 
     Owns states, exchange with the air, memory of the integrator, controls, servo and clock. An aircraft flies so (`Simulation`),
     and so moves a rotor on a stand.
@@ -145,10 +145,12 @@ class Stepping:
 
     def _inputs(self, t: float, stick: np.ndarray, rate: np.ndarray) -> tuple[_core.Inputs, float]:
         """Sticks from `t` on; inflow, memory of the sections, stabilator, engines and wind held."""
-        held, mean = self.exchange.held(self._step)
+        held, mean, change = self.exchange.held(self._step)
         if self._air is not None:
             held = self._air.on(held)
         inputs = _core.Inputs(stick, rate, t, held, mean, self._incidence)
+        if change is not None:
+            inputs = inputs.carried(change, self.t, self.delta_t)
         if self._engine is not None:
             inputs = inputs.driven(*self._engine)
         if self._air is not None:

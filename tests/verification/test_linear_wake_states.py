@@ -109,14 +109,14 @@ def test_motion_in_turn_is_the_same_in_multiblade_coordinates(orbit):
         assert own[3] == pytest.approx(2.0 * np.sin(2 * psi) + 0.3 * 2 * orbit.omega * np.cos(2 * psi))
 
 
-def test_the_orbit_repeats_itself_and_differences_about_it_are_of_second_order(orbit):
+def test_the_orbit_repeats_itself_and_differences_about_it_do_not_depend_on_their_size(orbit):
     assert orbit.distance < 1e-8
     slow, _ = causes_of(orbit.where, [])
     cause = next(each for each in slow if each.name == "p")
-    # below the kinks of the section tables halving a change quarters the error
-    one, half, quarter = (orbit.later(cause, share).inflow[: 2 * orbit.n] for share in (4e-2, 2e-2, 1e-2))
-    first, second = (np.linalg.norm(a - b) for a, b in ((one, half), (half, quarter)))
-    assert first < 2e-3 * np.linalg.norm(one) and second < 0.3 * first
+    # what circulations are known to shows in small ones, kinks of the section tables in large ones
+    one, half, quarter = (orbit.later(cause, share).inflow[: 2 * orbit.n] for share in (1.0, 0.5, 0.25))
+    for a, b in ((one, half), (half, quarter)):
+        assert np.linalg.norm(a - b) < 1e-3 * np.linalg.norm(one)
 
 
 def test_states_follow_slowly_what_the_relaxation_wake_follows_at_once(models):
@@ -135,7 +135,7 @@ def test_the_states_are_stable_and_told(models):
     told = model.attributes
     assert told["wake_order_1e-02"] < told["wake_order"] == told["wake_order_1e-03"] < told["wake_order_1e-04"]
     assert told["wake_orbit"] < 1e-8 and told["wake_misfit"] < 0.01
-    assert told["wake_hold"] == pytest.approx(np.pi / model.omega / 36)
+    assert told["wake_hold"] == 0.0
     wake = [i for i, (name, _) in enumerate(model.states) if name.startswith("wake_")]
     assert len(wake) == told["wake_order"]
     assert np.linalg.eigvals(model.matrices[0][np.ix_(wake, wake)]).real.max() < 0.0

@@ -102,8 +102,8 @@ def test_an_unphysical_sample_stops_the_flight_by_name(baseline_relaxation, monk
     true = Exchange.held
 
     def spoiled(self, step):
-        inflow, mean = true(self, step)
-        return inflow * (100.0 if step > 10 else 1.0), mean
+        inflow, *more = true(self, step)
+        return inflow * (100.0 if step > 10 else 1.0), *more
 
     monkeypatch.setattr(Exchange, "held", spoiled)
     with pytest.raises(wf.NumericalFailure, match=r"of the tip speed at t = .* s, blade .* psi = .* r/R = ") as caught:
@@ -115,7 +115,7 @@ def test_an_unphysical_sample_stops_the_flight_by_name(baseline_relaxation, monk
 
 def test_a_flight_that_fails_before_its_first_sample_leaves_nothing(baseline_relaxation, monkeypatch):
     true = Exchange.held
-    monkeypatch.setattr(Exchange, "held", lambda self, step: (100.0 * true(self, step)[0], true(self, step)[1]))
+    monkeypatch.setattr(Exchange, "held", lambda self, step: (100.0 * true(self, step)[0], *true(self, step)[1:]))
     with pytest.raises(wf.NumericalFailure, match=r"of the tip speed at t = 0\.000 s") as caught:
         wf.fly(baseline_relaxation, HOLD, inflow="relaxation", integrator="fixed")
     assert caught.value.partial is None

@@ -186,10 +186,12 @@ impl PyExchange {
     }
 
     /// Total inflow held over the step that begins after `step` steps (n_blades, n_stations), of thin sections at both lines of
-    /// the chord, None where it is in the state; and its mean over the disk.
-    fn held(&self, step: usize) -> (Option<Array>, f64) {
+    /// the chord, None where it is in the state; its mean over the disk; how much more it is at the end of the step, None where it stays.
+    fn held(&self, step: usize) -> (Option<Array>, f64, Option<Array>) {
         let held = self.inner.held(step);
-        (held.inflow.map(|values| array(values, &[self.n_blades])), held.mean)
+        let [inflow, change] =
+            [held.inflow, held.change].map(|rows| rows.map(|v| array(v, &[self.n_blades])));
+        (inflow, held.mean, change)
     }
 
     /// Air at fuselage, stabilator, fin and tail rotor of the airframe of `core` over the step that begins (4, 3) [m/s], body axes, mean

@@ -3,7 +3,7 @@
 use crate::checks::{Table, columns, invalid, pack};
 use pyo3::prelude::*;
 use wakeflight::blade::memory_rows::MemoryRows;
-use wakeflight::system::instant::{Disturbance, EngineInput, Gust, HeldInflow, HeldMemory, Inputs};
+use wakeflight::system::instant::{Carried, Disturbance, EngineInput, Gust, HeldInflow, HeldMemory, Inputs};
 use wakeflight::wake::airframe::{AtParts, PARTS};
 
 /// Memory of sections that remember, blade by blade, where a coupling step begins; see `wakeflight.exchange`.
@@ -44,9 +44,7 @@ impl PyInputs {
         let inflow = match (inflow, vacuum) {
             (_, true) => HeldInflow::Vacuum,
             (None, false) => HeldInflow::Dynamic,
-            (Some(map), false) => {
-                HeldInflow::Stations { inflow: map.as_array().iter().copied().collect(), mean: mean_inflow }
-            }
+            (Some(map), false) => HeldInflow::stations(map.as_array().iter().copied().collect(), mean_inflow),
         };
         Ok(Self(Inputs {
             stick,
@@ -59,6 +57,25 @@ impl PyInputs {
             engine: EngineInput::default(),
             disturbance: None,
         }))
+    }
+
+    /// The same with inflow that is `change` (n_blades, n_stations) more at the end of the coupling step, which begins at `begun` [s] and
+    /// lasts `lasts` [s].
+    fn carried(&self, change: Table, begun: f64, lasts: f64) -> PyResult<Self> {
+        if !(begun.is_finite() && lasts.is_finite() && lasts > 0.0) {
+            return Err(invalid(format!(
+                "step of {lasts} s from {begun} s: a finite length above zero needed"
+            )));
+        }
+        let mut inputs = self.0.clone();
+        let change: Vec<f64> = change.as_array().iter().copied().collect();
+        match inputs.inflow.first_mut() {
+            Some(HeldInflow::Stations { inflow, carried, .. }) if inflow.len() == change.len() => {
+                *carried = Some(Carried { change, begun, lasts });
+                Ok(Self(inputs))
+            }
+            _ => Err(invalid("change of the inflow: as many numbers as inflow is held of needed")),
+        }
     }
 
     /// The same with engines: torque of those without a governor [N m], share of the fuel of those with one.

@@ -34,7 +34,7 @@ fn aircraft(free_wake: bool) -> System {
 /// Held, from the states, and none.
 fn cases() -> Vec<(System, Inputs)> {
     let held: Vec<f64> = (0..60).map(|i| 0.01 + 0.001 * f64::from(i % 17)).collect();
-    let stations = HeldInflow::Stations { inflow: held, mean: 0.02 };
+    let stations = HeldInflow::stations(held, 0.02);
     [(aircraft(true), stations), (aircraft(false), HeldInflow::Dynamic), (aircraft(true), HeldInflow::Vacuum)]
         .into_iter()
         .map(|(aircraft, inflow)| {

@@ -57,7 +57,7 @@ fn a_shift_by_the_blade_spacing_renumbers_the_blades() {
         let mut random = Random::new(14);
         let map: Vec<f64> = (0..4 * n).map(|_| 0.03 + 0.02 * random.next()).collect();
         let renumbered: Vec<f64> = (0..4 * n).map(|k| map[(k + n) % (4 * n)]).collect();
-        let held = |inflow: Vec<f64>| HeldInflow::Stations { inflow, mean: 0.03 };
+        let held = |inflow: Vec<f64>| HeldInflow::stations(inflow, 0.03);
         let (before, after) = if free_wake {
             (inputs(STICK, held(map)), inputs(STICK, held(renumbered)))
         } else {

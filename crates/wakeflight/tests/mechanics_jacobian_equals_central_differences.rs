@@ -98,7 +98,7 @@ fn cases(smooth: bool) -> Vec<(System, Inputs, &'static str)> {
         let inputs = remembering(&system, inputs, 0.106, &mut random);
         (system, inputs)
     };
-    let stations = inputs(STICK, HeldInflow::Stations { inflow: inflow.clone(), mean: 0.03 });
+    let stations = inputs(STICK, HeldInflow::stations(inflow.clone(), 0.03));
     let (attached, attached_inputs) = remembers(&dynamic, Model::Attached, &moving);
     let (oye, oye_inputs) = remembers(&held, Model::Oye, &stations);
     let (hgm, hgm_inputs) = remembers(&general, Model::Hgm, &stations);
@@ -125,14 +125,10 @@ fn cases(smooth: bool) -> Vec<(System, Inputs, &'static str)> {
         (build(&clockwise, false, 9.80665).over_ground(), moving.clone(), "the same of a clockwise rotor"),
         (held.clone().over_ground(), inputs(STICK, HeldInflow::Vacuum), "the same in vacuum"),
         (dynamic, moving, "dynamic inflow, sticks moving"),
-        (
-            held.clone(),
-            inputs(STICK, HeldInflow::Stations { inflow: inflow.clone(), mean: 0.03 }),
-            "held station inflow",
-        ),
+        (held.clone(), inputs(STICK, HeldInflow::stations(inflow.clone(), 0.03)), "held station inflow"),
         (
             general,
-            inputs(STICK, HeldInflow::Stations { inflow, mean: 0.03 }),
+            inputs(STICK, HeldInflow::stations(inflow, 0.03)),
             "hinge springs and stops, two sections along the span",
         ),
         (held, inputs(STICK, HeldInflow::Vacuum), "vacuum"),
@@ -216,7 +212,9 @@ fn derivatives_by_what_acts_equal_central_differences() {
                         inputs.disturbance = Some(more);
                     }
                     _ => {
-                        let HeldInflow::Stations { inflow, mean } = &mut inputs.inflow[0] else { panic!() };
+                        let HeldInflow::Stations { inflow, mean, .. } = &mut inputs.inflow[0] else {
+                            panic!()
+                        };
                         *inflow.get_mut(column - 9).unwrap_or(mean) += h;
                     }
                 }

@@ -22,7 +22,7 @@ fn held(system: &System, random: &mut Random) -> Inputs {
         .iter()
         .map(|r| {
             let n = r.n_blades * r.blade.stations.len();
-            HeldInflow::Stations { inflow: (0..n).map(|_| 0.02 + 0.02 * random.next()).collect(), mean: 0.02 }
+            HeldInflow::stations((0..n).map(|_| 0.02 + 0.02 * random.next()).collect(), 0.02)
         })
         .collect();
     held.stick_rate = [0.2, -0.1, 0.15, 0.05];

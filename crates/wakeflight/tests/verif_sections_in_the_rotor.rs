@@ -143,7 +143,7 @@ fn harmonic_pitch_gives_theodorsens_function_at_every_station() {
 fn flown(system: &System, n: usize, steps: usize, collective: impl Fn(f64) -> f64) -> Vec<f64> {
     let rotor = system.main();
     let dt = TAU / (n as f64 * rotor.omega);
-    let held = || HeldInflow::Stations { inflow: vec![0.0; 4 * N_STATIONS], mean: 0.0 };
+    let held = || HeldInflow::stations(vec![0.0; 4 * N_STATIONS], 0.0);
     let acting = |t: f64, memory: MemoryRows| Inputs {
         sections: vec![HeldMemory { memory, begun: t }],
         t_start: t,
@@ -194,7 +194,7 @@ fn a_flight_from_a_trim_repeats_it_and_its_blades_move_in_unison() {
         let still = vec![0.0; system.layout.len()];
         let mut memory = trim.memory_at(&x, 0.0);
         for k in 0..n {
-            let held = HeldInflow::Stations { inflow: vec![0.0; 4 * N_STATIONS], mean: 0.0 };
+            let held = HeldInflow::stations(vec![0.0; 4 * N_STATIONS], 0.0);
             let begun = k as f64 * dt;
             let inputs = Inputs {
                 sections: vec![HeldMemory { memory, begun }],

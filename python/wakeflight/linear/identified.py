@@ -77,8 +77,7 @@ def _later(
     """Inflow (steps, n_blades, n_width), by the azimuth at which a blade is, less what is answered at once; and its mean."""
     inflow, mean = marched(orbit, driven)
     inflow -= at_once(orbit, driven, once, steps)
-    # held: the mean of this step's and the last's
-    inflow[1:] = 0.5 * (inflow[1:] + inflow[:-1])
+    inflow[1:] = (1.0 - orbit.late) * inflow[1:] + orbit.late * inflow[:-1]
     for i, step in enumerate(steps):
         inflow[i] = np.roll(inflow[i], step // orbit.passage, axis=0)
     return inflow, mean

@@ -105,6 +105,8 @@ class Orbit:
         self.n, self.n_blades = self.model.steps_per_revolution, where.n_blades
         self.passage = self.n // self.n_blades
         self.omega = self.model.omega
+        # share of a step by which a flight that holds the inflow feels it late
+        self.late = 0.0 if self.model.inflow.marching.extrapolate else 0.5
         core = self.model.core
         self.y = core.trim_state(start.problem, start.x, 0.0)[0]
         self.motion = core.trim_motion(start.problem, start.x, self.n)

@@ -4,8 +4,8 @@
 lambda(psi, r, t) = D(psi, r) u + C(psi, r) x, x_dot = A x + B(psi) u: u are motion of the hub, blade pitch and what the blades
 do by their modes; the maps are by azimuth. D holds every mode of every blade. What is answered later is so to motion that the
 fixed frame sees as slow: multiblade coordinates, and the second harmonic that all blades make in turn, whose amplitude is twice
-the mean of its product with their motion. Flight dynamics hold the inflow over a step, blade by blade: what is felt at an azimuth
-is the mean of the maps there and a step before, half a step late.
+the mean of its product with their motion. A flight carries the inflow on over a step, so that what is felt at an azimuth is the
+map there; where it holds it instead (`extrapolate=False`), that is the mean of the maps there and a step before, half a step late.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ class WakeStates:
     hankel: np.ndarray
     """Hankel singular values over the largest."""
     hold: float
-    """Half a step [s], by which the inflow that is felt is late."""
+    """Time [s] by which the inflow that is felt is late: half a step where a flight holds it, else none."""
     said: Mapping[str, float]
     """What else is to be said of it, by attribute."""
 
@@ -94,8 +94,7 @@ def _realised(
         every = np.arange(mean.size)
         value, rate = orbit.pulse(every)
         inflow -= at_once(orbit, Driven.by(orbit, [cause], every, value[:, None], rate[:, None]), known, every)
-        # held: the mean of this step's and the last's
-        inflow[1:] = 0.5 * (inflow[1:] + inflow[:-1])
+        inflow[1:] = (1.0 - orbit.late) * inflow[1:] + orbit.late * inflow[:-1]
         for phase in range(orbit.passage):
             at = every[phase :: orbit.passage]
             by_row = np.stack([np.roll(inflow[k], k // orbit.passage, axis=0) for k in at])
@@ -130,7 +129,7 @@ def coupled(
     quick, maps = once
     n, n_width = orbit.n, maps.shape[1]
     names = [name for name, _ in where.named(columns(where.n_blades))]
-    lag = 0.5 * (2 * np.pi / orbit.omega / n)
+    lag = orbit.late * (2 * np.pi / orbit.omega / n)
     matrix = np.asarray(orbit.start.model.data["rigging"]["matrix"])[:3]
 
     def felt(values: np.ndarray, k: int) -> np.ndarray:
@@ -143,7 +142,7 @@ def coupled(
     for i, cause in enumerate(quick):
         for k in range(n):
             here, before = (_turned(orbit, cause, j) * felt(maps[:, :, i], j) for j in (k, k - 1))
-            mean = 0.5 * (here + before)
+            mean = (1.0 - orbit.late) * here + orbit.late * before
             late = -lag * before
             if cause.kind == "control":
                 (rates if cause.rate_alone else controls)[k, :-1, cause.index] += mean

@@ -189,10 +189,11 @@ class Means:
     def as_held(self, inflow: np.ndarray) -> np.ndarray:
         """A map by azimuth as a flight has it there: in the mean of what is held over the steps before and after.
 
-        A step holds the inflow that is found where it begins, so that the disk feels it half a step of azimuth late. A map
-        that is held for several steps (update_interval) enters in the mean of the ends of each and is not late.
+        A step that holds the inflow that is found where it begins feels it half a step of azimuth late. Inflow that goes on
+        over the step (extrapolate), or a map that is held for several of them (update_interval), is not late.
         """
-        if self.model.inflow.marching.update_interval is not None:
+        own = self.model.inflow.marching
+        if own.extrapolate or own.update_interval is not None:
             return inflow
         held: np.ndarray = 0.5 * (inflow + np.roll(inflow, 1, axis=0))
         return held

@@ -258,7 +258,7 @@ impl Blade {
             (environment.airfoils.at(j), &environment.air, &self.stations[j].geometry);
         let thin = match inflow {
             BladeInflow::TwoLines { law, quarter, three_quarter } => {
-                let more = (three_quarter[j] - quarter[j]) * tip_speed;
+                let more = (three_quarter.at(j) - quarter.at(j)) * tip_speed;
                 Some((law, wind - carrier.up.scaled(more)))
             }
             _ => None,
@@ -322,10 +322,10 @@ impl Blade {
                 *mean + (*cosine * place.x + *sine * place.y) / self.radius + more[j]
             }
             BladeInflow::Stations(values)
-            | BladeInflow::InTime { inflow: PlainInflow::Stations(values), .. } => S::cst(values[j]),
+            | BladeInflow::InTime { inflow: PlainInflow::Stations(values), .. } => S::cst(values.at(j)),
             BladeInflow::Variable(values)
             | BladeInflow::InTime { inflow: PlainInflow::Variable(values), .. } => values[j],
-            BladeInflow::TwoLines { quarter, .. } => S::cst(quarter[j]),
+            BladeInflow::TwoLines { quarter, .. } => S::cst(quarter.at(j)),
             BladeInflow::Vacuum => S::zero(),
         }
     }

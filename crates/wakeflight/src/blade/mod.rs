@@ -3,6 +3,7 @@ pub mod aerodynamics;
 pub mod assembly;
 pub mod beam;
 pub mod error;
+pub mod held_row;
 pub mod hermite;
 pub mod hinge;
 pub mod hub_loads;

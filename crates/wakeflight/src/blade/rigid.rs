@@ -8,6 +8,7 @@
 
 use super::MAX_MODES;
 use super::aerodynamics::{Strengths, section_flow, section_strengths};
+use super::held_row::HeldRow;
 use super::hub_loads::Sum;
 use super::hub_motion::{Carrier, HubMotion};
 use super::kinematics::{BladeAxes, ModalMotion, PitchMotion};
@@ -22,7 +23,7 @@ enum StraightInflow<'a, S> {
     /// At the hinge, and its slope with the distance from it [1/m].
     Linear([S; 2]),
     /// One value per station, held.
-    Held(&'a [f64]),
+    Held(HeldRow<'a>),
     /// One value per station, with derivatives.
     Variable(&'a [S]),
 }
@@ -45,7 +46,7 @@ impl<'a, S: Real> StraightInflow<'a, S> {
                     (*cosine * span.x + *sine * span.y) / blade.radius,
                 ]))
             }
-            BladeInflow::Stations(values) => Some(Self::Held(values)),
+            BladeInflow::Stations(values) => Some(Self::Held(*values)),
             BladeInflow::Variable(values) => Some(Self::Variable(values)),
             _ => None,
         }
@@ -55,7 +56,7 @@ impl<'a, S: Real> StraightInflow<'a, S> {
     fn at(&self, j: usize, length: f64) -> S {
         match self {
             Self::Linear([at_hinge, slope]) => *at_hinge + *slope * length,
-            Self::Held(values) => S::cst(values[j]),
+            Self::Held(values) => S::cst(values.at(j)),
             Self::Variable(values) => values[j],
         }
     }

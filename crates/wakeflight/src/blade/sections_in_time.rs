@@ -1,6 +1,7 @@
 //! Sections of a blade that remember: the flow of the instant on what is known of their states besides.
 
 use super::aerodynamics::{Air, SectionAir, SectionFlow, StationGeometry, section_loads};
+use super::held_row::HeldRow;
 use super::kinematics::{BladeAxes, SectionMotion};
 use crate::airfoil::Airfoil;
 use crate::airfoil::span::{StationAirfoils, StationSeparations};
@@ -73,7 +74,7 @@ pub enum PlainInflow<'a, S> {
     /// The same, and one value per station on top of it.
     DiskAnd([S; 3], &'a [f64]),
     /// One value per station, held.
-    Stations(&'a [f64]),
+    Stations(HeldRow<'a>),
     /// One value per station, with derivatives.
     Variable(&'a [S]),
 }

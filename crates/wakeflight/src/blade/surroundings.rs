@@ -1,6 +1,7 @@
 //! What surrounds a blade: section tables, air, rotor speed, inflow.
 
 use super::aerodynamics::Air;
+use super::held_row::HeldRow;
 use super::sections_in_time::{PlainInflow, SectionsInTime};
 use super::thin_section::ThinSection;
 use crate::airfoil::span::StationAirfoils;
@@ -28,7 +29,7 @@ pub enum BladeInflow<'a, S> {
     /// The same of four blades at once, each with its own.
     DiskAndEach([S; 3], &'a [S]),
     /// One value per station, held.
-    Stations(&'a [f64]),
+    Stations(HeldRow<'a>),
     /// One value per station, with derivatives.
     Variable(&'a [S]),
     /// Thin sections, held: inflow at the quarter chord turns the lift, that at three quarters makes it.
@@ -36,9 +37,9 @@ pub enum BladeInflow<'a, S> {
         /// Law of the sections.
         law: ThinSection,
         /// Inflow at the quarter chord.
-        quarter: &'a [f64],
+        quarter: HeldRow<'a>,
         /// Inflow at three quarters, less that of the section's own bound vortex in two dimensions.
-        three_quarter: &'a [f64],
+        three_quarter: HeldRow<'a>,
     },
     /// Sections that remember.
     InTime {

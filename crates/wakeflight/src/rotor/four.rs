@@ -3,6 +3,7 @@
 use super::hub::Rotor;
 use crate::blade::MAX_MODES;
 use crate::blade::aerodynamics::Air;
+use crate::blade::held_row::HeldRow;
 use crate::blade::hub_loads::BladeLoads;
 use crate::blade::hub_motion::{Carrier, HubMotion};
 use crate::blade::kinematics::{ModalMotion, PitchMotion};
@@ -27,7 +28,7 @@ enum FourInflow<'a> {
     /// The same, and one value per station on top of it, blade by blade.
     DiskAnd([f64; 3], [&'a [f64]; 4]),
     /// One value per station, blade by blade.
-    Stations([&'a [f64]; 4]),
+    Stations([HeldRow<'a>; 4]),
 }
 
 impl<'a> FourInflow<'a> {
@@ -45,7 +46,7 @@ impl<'a> FourInflow<'a> {
                 BladeInflow::Stations(b),
                 BladeInflow::Stations(c),
                 BladeInflow::Stations(d),
-            ] if a.len() <= MOST_STATIONS => Self::Stations([a, b, c, d]),
+            ] if a.len() <= MOST_STATIONS => Self::Stations([*a, *b, *c, *d]),
             _ => Self::Without,
         }
     }
@@ -69,9 +70,14 @@ impl FourTask for FourBlades<'_> {
         let (psi, modal, control) = side_by_side::<S>(self.blades, n);
         let hub = self.hub.constant();
         let mut stations = [S::zero(); MOST_STATIONS];
-        if let FourInflow::Stations([a, b, c, d]) | FourInflow::DiskAnd(_, [a, b, c, d]) = self.inflow {
-            for j in 0..a.len() {
-                stations[j] = S::of([a[j], b[j], c[j], d[j]]);
+        if let FourInflow::DiskAnd(_, rows) = self.inflow {
+            for j in 0..rows[0].len() {
+                stations[j] = S::of(rows.map(|row| row[j]));
+            }
+        }
+        if let FourInflow::Stations(rows) = &self.inflow {
+            for j in 0..rows[0].len() {
+                stations[j] = S::of([rows[0].at(j), rows[1].at(j), rows[2].at(j), rows[3].at(j)]);
             }
         }
         let inflow = match self.inflow {

@@ -10,6 +10,7 @@ use crate::airfoil::span::StationAirfoils;
 use crate::blade::MAX_MODES;
 use crate::blade::aerodynamics::{Air, SectionAir};
 use crate::blade::error::BladeError;
+use crate::blade::held_row::HeldRow;
 use crate::blade::hinge::HingeStops;
 use crate::blade::hub_loads::BladeLoads;
 use crate::blade::hub_motion::HubMotion;
@@ -223,11 +224,12 @@ impl Rotor {
     }
 
     /// Inflow of a blade held as one row: at the stations, followed for thin sections by that at three quarters of the chord.
-    pub fn held_inflow<'a, S: Real>(&self, row: &'a [f64]) -> BladeInflow<'a, S> {
-        let n = self.blade.stations.len();
+    pub fn held_inflow<'a, S: Real>(&self, row: impl Into<HeldRow<'a>>) -> BladeInflow<'a, S> {
+        let (n, row) = (self.blade.stations.len(), row.into());
         match self.thin {
             Some(law) if row.len() == 2 * n => {
-                BladeInflow::TwoLines { law, quarter: &row[..n], three_quarter: &row[n..] }
+                let (quarter, three_quarter) = row.split_at(n);
+                BladeInflow::TwoLines { law, quarter, three_quarter }
             }
             Some(law) => BladeInflow::TwoLines { law, quarter: row, three_quarter: row },
             None => BladeInflow::Stations(row),

@@ -32,7 +32,7 @@ fn numbers<'a, U>(inputs: &'a mut Inputs<U>, layout: &Layout) -> Vec<&'a mut U> 
     let mut all: Vec<&mut U> = inputs.stick.iter_mut().chain(inputs.stick_rate.iter_mut()).collect();
     all.push(&mut inputs.stabilator_incidence);
     for held in &mut inputs.inflow {
-        if let HeldInflow::Stations { inflow, mean } = held {
+        if let HeldInflow::Stations { inflow, mean, .. } = held {
             all.extend(inflow.iter_mut());
             all.push(mean);
         }
@@ -47,13 +47,16 @@ fn numbers<'a, U>(inputs: &'a mut Inputs<U>, layout: &Layout) -> Vec<&'a mut U> 
     all
 }
 
-/// Without derivatives; a disturbance that is none where there is none, to be differentiated by.
-fn constant(inputs: &Inputs, n_rotors: usize) -> Inputs<D> {
+/// Without derivatives, inflow as it is at `t`; a disturbance that is none where there is none, to be differentiated by.
+fn constant(inputs: &Inputs, t: f64, n_rotors: usize) -> Inputs<D> {
     let inflow = inputs.inflow.iter().map(|held| match held {
         HeldInflow::Dynamic => HeldInflow::Dynamic,
         HeldInflow::Vacuum => HeldInflow::Vacuum,
-        HeldInflow::Stations { inflow, mean } => {
-            HeldInflow::Stations { inflow: inflow.iter().map(|&v| D::cst(v)).collect(), mean: D::cst(*mean) }
+        HeldInflow::Stations { inflow, mean, carried } => {
+            let more =
+                |i: usize| carried.as_ref().map_or(0.0, |on| on.change[i] * ((t - on.begun) / on.lasts));
+            let inflow = inflow.iter().enumerate().map(|(i, v)| D::cst(v + more(i))).collect();
+            HeldInflow::Stations { inflow, mean: D::cst(*mean), carried: None }
         }
     });
     let disturbance = match &inputs.disturbance {
@@ -92,7 +95,7 @@ impl System {
         let mut f = vec![D::zero(); n];
         for first in (0..columns).step_by(LANES) {
             let lanes = LANES.min(columns - first);
-            let mut inputs = constant(at.inputs, self.rotors.len());
+            let mut inputs = constant(at.inputs, at.t, self.rotors.len());
             for (lane, number) in
                 numbers(&mut inputs, &self.layout)[first..first + lanes].iter_mut().enumerate()
             {

@@ -2,6 +2,7 @@
 //!
 //! What acts is plain numbers, or numbers with derivatives where F is differentiated by them.
 
+use crate::blade::held_row::HeldRow;
 use crate::blade::memory_rows::MemoryRows;
 use crate::blade::surroundings::BladeInflow;
 use crate::numerics::scalar::{Dual, Real};
@@ -13,8 +14,8 @@ use serde::{Deserialize, Serialize};
 pub trait Acting<S>: Real {
     /// As a number of the equations.
     fn felt(self) -> S;
-    /// A row of held inflow of a blade.
-    fn held<'a>(rotor: &Rotor, row: &'a [Self]) -> BladeInflow<'a, S>;
+    /// A row of held inflow of a blade; with `carried` its change over the step, and the share of it that has passed.
+    fn held<'a>(rotor: &Rotor, row: &'a [Self], carried: Option<(&'a [f64], f64)>) -> BladeInflow<'a, S>;
 }
 
 impl<S: Real> Acting<S> for f64 {
@@ -23,8 +24,10 @@ impl<S: Real> Acting<S> for f64 {
         S::cst(self)
     }
     #[inline(always)]
-    fn held<'a>(rotor: &Rotor, row: &'a [f64]) -> BladeInflow<'a, S> {
-        rotor.held_inflow(row)
+    fn held<'a>(rotor: &Rotor, row: &'a [f64], carried: Option<(&'a [f64], f64)>) -> BladeInflow<'a, S> {
+        rotor.held_inflow(
+            carried.map_or(HeldRow::from(row), |(change, share)| HeldRow::carried(row, change, share)),
+        )
     }
 }
 
@@ -32,10 +35,21 @@ impl<const N: usize> Acting<Dual<N>> for Dual<N> {
     fn felt(self) -> Self {
         self
     }
-    /// On a lifting line: thin sections hold two inflows and have no derivatives by them.
-    fn held<'a>(_: &Rotor, row: &'a [Self]) -> BladeInflow<'a, Self> {
+    /// On a lifting line: thin sections hold two inflows and have no derivatives by them. Numbers of an instant are not carried.
+    fn held<'a>(_: &Rotor, row: &'a [Self], _: Option<(&'a [f64], f64)>) -> BladeInflow<'a, Self> {
         BladeInflow::Variable(row)
     }
+}
+
+/// How held inflow goes on over a coupling step: linearly in time.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+pub struct Carried {
+    /// How much more it is at the end of the step, like the rows.
+    pub change: Vec<f64>,
+    /// Start of the step [s], which inputs that begin at a corner of the controls come after.
+    pub begun: f64,
+    /// Its length [s].
+    pub lasts: f64,
 }
 
 /// Inflow of a rotor held over a coupling step.
@@ -49,6 +63,8 @@ pub enum HeldInflow<U = f64> {
         inflow: Vec<U>,
         /// Disk mean.
         mean: U,
+        /// How the rows go on over the step; none where they stay.
+        carried: Option<Carried>,
     },
     /// No air.
     Vacuum,
@@ -125,6 +141,13 @@ pub struct Inputs<U = f64> {
     pub engine: EngineInput<U>,
     /// Wind, and excess speed of the rotors at the azimuths they have, which is none in flight; none in still air.
     pub disturbance: Option<Disturbance<U>>,
+}
+
+impl<U> HeldInflow<U> {
+    /// Rows that stay, and their disk mean.
+    pub fn stations(inflow: Vec<U>, mean: U) -> Self {
+        Self::Stations { inflow, mean, carried: None }
+    }
 }
 
 impl<U: Real> Inputs<U> {

@@ -200,9 +200,11 @@ impl System {
                 let i = self.layout.rotors[r].inflow().start;
                 self.disk_inflow(r, [y[i], y[i + 1], y[i + 2]], inputs, b)
             }
-            HeldInflow::Stations { inflow, .. } => {
+            HeldInflow::Stations { inflow, carried, .. } => {
                 let width = inflow.len() / self.rotors[r].n_blades;
-                U::held(&self.rotors[r], &inflow[b * width..(b + 1) * width])
+                let row = b * width..(b + 1) * width;
+                let carried = carried.as_ref().map(|on| (&on.change[row.clone()], (t - on.begun) / on.lasts));
+                U::held(&self.rotors[r], &inflow[row], carried)
             }
             HeldInflow::Vacuum => BladeInflow::Vacuum,
         };

@@ -3,6 +3,7 @@
 //! Circulation from the motion and the far inflow, the wake one step further, the far inflow anew, the circulation again:
 //! one call, with the near wakes of the blades found once.
 
+use super::passages::Passages;
 use super::{Held, Lattice, Place, SteadyWake, over_step, row, steps_of};
 use crate::blade::memory_rows::MemoryRows;
 use crate::inflow::disk::{DiskMean, LiftingDisk};
@@ -50,7 +51,6 @@ pub struct MarchingExchange {
     pub wake: TimeMarchingWake,
     /// Far inflow at the stations (n_blades, n_stations).
     pub lambda_far: Vec<f64>,
-    before: Option<Vec<f64>>,
     far_held: Vec<f64>,
     /// Bound circulation (n_blades, n_stations) [m2/s].
     pub circulation: Vec<f64>,
@@ -68,8 +68,9 @@ pub struct MarchingExchange {
     step: usize,
     disk: LiftingDisk,
     area: DiskMean,
-    /// Inflow and circulation at the latest passage of every azimuth (n_azimuths, ...).
-    passages: Vec<f64>,
+    /// Inflow, far inflow and circulation at the latest passage of every azimuth.
+    passages: Passages,
+    passed_far: Passages,
     passed_circulation: Vec<f64>,
     /// Air at the parts of the airframe after each step of the last revolution [m/s, `_h`], by the number of the step; empty where they do
     /// not feel the wake.
@@ -102,7 +103,6 @@ impl MarchingExchange {
             wake,
             far_held: lambda_far.clone(),
             lambda_far,
-            before: None,
             circulation: rows(&start.circulation, n_stations),
             inflow: rows(&start.inflow, width),
             memory: start.memory.rows((0..rotor.n_blades).map(|b| row(0, b, rotor.n_blades, n))),
@@ -112,7 +112,8 @@ impl MarchingExchange {
             step: 0,
             disk: rotor.lifting_disk(),
             area: rotor.disk_mean(),
-            passages: start.inflow.clone(),
+            passages: Passages::new(&start.inflow, width, rotor.n_blades, 0),
+            passed_far: Passages::new(&start.lambda_far, n_stations, rotor.n_blades, 0),
             passed_circulation: start.circulation.clone(),
             at_parts: start.at_parts.repeat(rotor.n_blades),
             held_map: start.inflow.clone(),
@@ -131,7 +132,7 @@ impl MarchingExchange {
     /// Counts steps anew from here, blade 1 at azimuth zero: a phase before the flight has ended.
     pub fn restart(&mut self) {
         self.step = 0;
-        self.held_map.clone_from(&self.passages);
+        self.held_map.clone_from(&self.passages.map);
     }
 
     /// Inflow over the step that begins, and the mean over the disk.
@@ -140,11 +141,14 @@ impl MarchingExchange {
     /// per revolution.
     pub(super) fn held(&self, step: usize) -> Held {
         let width = self.inflow.len() / self.disk.n_blades;
-        let (inflow, map) = match self.hold {
-            None => (self.inflow.clone(), &self.passages),
-            Some(_) => (over_step(&self.held_map, width, step, self.disk.n_blades), &self.held_map),
+        let carried = self.wake.own().extrapolate.then(|| self.passages.change.clone());
+        let (inflow, change, map) = if self.hold.is_some() {
+            let [inflow, change] = over_step(&self.held_map, width, step, self.disk.n_blades);
+            (inflow, Some(change), &self.held_map)
+        } else {
+            (self.inflow.clone(), carried, &self.passages.map)
         };
-        Held { inflow: Some(inflow), mean: self.area.of(map, width) }
+        Held { inflow: Some(inflow), change, mean: self.area.of(map, width) }
     }
 
     /// The blades have reached the next step, `elapsed` [s] after the last: circulation, wake, far inflow, circulation.
@@ -160,18 +164,14 @@ impl MarchingExchange {
         self.place(at, blades)?;
         let mut followed = self.solve(at, true)?;
         let step = self.wake.step(hub, &self.states, &self.circulation)?;
-        self.renew_far(at, self.wake.own().recorrect == 0);
+        self.find_far(at, self.wake.own().recorrect == 0);
         followed += self.solve(at, false)?;
         for pass in 0..self.wake.own().recorrect {
             self.wake.set_circulation(&self.circulation)?;
             self.find_far(at, pass + 1 == self.wake.own().recorrect);
             followed += self.solve(at, false)?;
         }
-        let memory = self.kept(at);
-        if self.wake.own().extrapolate {
-            self.hold_extrapolated(at)?;
-        }
-        self.memory = memory;
+        self.memory = self.kept(at);
         self.report = Some(ExchangeReport {
             max_displacement: step.max_displacement,
             odd_even: step.odd_even,
@@ -210,7 +210,7 @@ impl MarchingExchange {
     /// azimuth, means of all blades' passages.
     pub fn turn(&mut self, at: &Place, periodic: &[BladeInstant]) -> Result<(Vec<f64>, Vec<f64>), WakeError> {
         let (n, n_blades) = (periodic.len(), self.disk.n_blades);
-        let mut inflow = vec![0.0; self.passages.len()];
+        let mut inflow = vec![0.0; self.passages.map.len()];
         let mut circulation = vec![0.0; self.passed_circulation.len()];
         let mut blades = Vec::with_capacity(n_blades);
         for _ in 0..n {
@@ -229,17 +229,17 @@ impl MarchingExchange {
 
     /// Inflow and circulation of the blades enter the maps at their azimuths.
     fn keep_passages(&mut self) {
+        self.passages.keep(self.step, &self.inflow);
+        self.passed_far.keep(self.step, &self.lambda_far);
         let (n_blades, n_stations) = (self.disk.n_blades, self.disk.stations.len());
-        let (width, n) = (self.inflow.len() / n_blades, self.passed_circulation.len() / n_stations);
+        let n = self.passed_circulation.len() / n_stations;
         for b in 0..n_blades {
             let k = row(self.step, b, n_blades, n);
-            self.passages[k * width..(k + 1) * width]
-                .copy_from_slice(&self.inflow[b * width..(b + 1) * width]);
             self.passed_circulation[k * n_stations..(k + 1) * n_stations]
                 .copy_from_slice(&self.circulation[b * n_stations..(b + 1) * n_stations]);
         }
         if self.hold.is_some_and(|every| self.step.is_multiple_of(every)) {
-            self.held_map.clone_from(&self.passages);
+            self.held_map.clone_from(&self.passages.map);
         }
     }
 
@@ -274,12 +274,6 @@ impl MarchingExchange {
         Ok(())
     }
 
-    fn renew_far(&mut self, at: &Place, last: bool) {
-        let before = self.before.get_or_insert_default();
-        std::mem::swap(before, &mut self.lambda_far);
-        self.find_far(at, last);
-    }
-
     /// Far inflow of the wake as it is; with the `last` before the next step goes the velocity of its markers.
     fn find_far(&mut self, at: &Place, last: bool) {
         if last {
@@ -291,19 +285,12 @@ impl MarchingExchange {
         options.add_upwash(at.airframe, &at.wake_hub(), instant, &mut self.lambda_far);
     }
 
-    /// Far inflow `steps` ahead, linear in azimuth from its last two values.
-    fn far_ahead(&mut self, steps: f64) {
+    /// Circulation and total inflow of every blade; `before`: the far inflow is that of the step before, to be carried on.
+    fn solve(&mut self, at: &Place, before: bool) -> Result<usize, WakeError> {
         self.far_held.copy_from_slice(&self.lambda_far);
-        if let (true, Some(before)) = (self.wake.own().extrapolate, &self.before) {
-            for (held, old) in self.far_held.iter_mut().zip(before) {
-                *held += steps * (*held - old);
-            }
+        if before && self.wake.own().extrapolate {
+            self.far_held.iter_mut().zip(&self.passed_far.change).for_each(|(held, more)| *held += more);
         }
-    }
-
-    /// Circulation and total inflow of every blade; `ahead`: with the far inflow carried on to the present azimuth.
-    fn solve(&mut self, at: &Place, ahead: bool) -> Result<usize, WakeError> {
-        self.far_ahead(if ahead { 1.0 } else { 0.0 });
         // the sections feel a gust as they feel inflow; what is kept is induced
         for (held, gust) in self.far_held.iter_mut().zip(at.gust) {
             *held += gust;
@@ -335,24 +322,6 @@ impl MarchingExchange {
             let past = self.memory.step(b, self.elapsed);
             at.rotor.kept(at.air, &hub, blade, &at.rotor.held_inflow(row), past)
         }))
-    }
-
-    /// Total inflow half a step ahead; circulation of the wake stays that of the present.
-    fn hold_extrapolated(&mut self, at: &Place) -> Result<(), WakeError> {
-        self.far_ahead(0.5);
-        for (held, gust) in self.far_held.iter_mut().zip(at.gust) {
-            *held += gust;
-        }
-        let (n, width) = (self.wake.options().n_stations, at.rotor.inflow_width());
-        for (b, (instant, near)) in self.blades.iter().zip(&self.near_wakes).enumerate() {
-            let span = b * n..(b + 1) * n;
-            let blade = BladeInTime { instant, past: self.memory.step(b, self.elapsed) };
-            let solution =
-                at.solved(b, blade, &self.far_held[span.clone()], near, &self.circulation[span])?;
-            self.inflow[b * width..(b + 1) * width].copy_from_slice(&solution.inflow);
-        }
-        take_off(&mut self.inflow, at.gust, (width, n));
-        Ok(())
     }
 }
 

@@ -5,6 +5,7 @@
 //! What is held between exchanges (maps by azimuth, far inflow, convection of the sheet) is state of the exchange.
 
 pub mod marching;
+mod passages;
 pub mod relaxation;
 pub mod steady;
 
@@ -92,6 +93,8 @@ pub struct Reached<'a> {
 pub struct Held {
     /// Total inflow over the tip speed (n_blades, n_stations), thin sections twice as wide; none where it is in the state.
     pub inflow: Option<Vec<f64>>,
+    /// How much more it is at the end of the step, like the rows; none where it stays.
+    pub change: Option<Vec<f64>>,
     /// Its mean over the disk, zero where the inflow is in the state.
     pub mean: f64,
 }
@@ -124,7 +127,7 @@ impl Exchange {
     /// Inflow over the step that begins after `step` steps of azimuth.
     pub fn held(&self, step: usize) -> Held {
         match self {
-            Self::Dynamic(_) => Held { inflow: None, mean: 0.0 },
+            Self::Dynamic(_) => Held { inflow: None, change: None, mean: 0.0 },
             Self::Relaxation(wake) => wake.held(step),
             Self::Marching(wake) => wake.held(step),
         }
@@ -231,16 +234,13 @@ fn steps_of(interval: f64, n: usize) -> usize {
     (interval / TAU * n as f64).round() as usize
 }
 
-/// Mean of a map (n_azimuths, width) over the step that begins: of its rows at the two ends, so that it does not lag.
-fn over_step(map: &[f64], width: usize, step: usize, n_blades: usize) -> Vec<f64> {
+/// Rows of a map (n_azimuths, width) where the step begins, and how much more they are at its end.
+fn over_step(map: &[f64], width: usize, step: usize, n_blades: usize) -> [Vec<f64>; 2] {
     let n = map.len() / width;
-    let at = |step: usize, b: usize| {
-        let k = row(step, b, n_blades, n);
-        &map[k * width..(k + 1) * width]
+    let at = |step: usize| {
+        (0..n_blades).flat_map(move |b| map[row(step, b, n_blades, n) * width..][..width].iter().copied())
     };
-    (0..n_blades)
-        .flat_map(|b| at(step, b).iter().zip(at(step + 1, b)).map(|(now, ahead)| 0.5 * (now + ahead)))
-        .collect()
+    [at(step).collect(), at(step).zip(at(step + 1)).map(|(now, ahead)| ahead - now).collect()]
 }
 
 impl Rotor {

@@ -75,7 +75,8 @@ impl RelaxationExchange {
 
     pub(super) fn held(&self, step: usize) -> Held {
         let (map, width) = (&self.steady.inflow, self.steady.width());
-        Held { inflow: Some(over_step(map, width, step, self.n_blades)), mean: self.area.of(map, width) }
+        let [inflow, change] = over_step(map, width, step, self.n_blades);
+        Held { inflow: Some(inflow), change: Some(change), mean: self.area.of(map, width) }
     }
 
     /// Remembers the motion of the blades at their azimuths; where it is due, converges wake and circulation anew.

@@ -174,7 +174,7 @@ declare! {
     /// Options of the wake marched in time [bhagwat2001].
     pub struct MarchingOptions in "marching" of TIME_MARCHING {
         /// Corrector: backward at the new level, PC2B at the cell's centre, five-point central, or along the paths of markers.
-        scheme: Scheme = always(Scheme::Bdf2), source(&["bhagwat2001"]);
+        scheme: Scheme = always(Scheme::Pcc), source(&["bhagwat2001"]);
 
         /// Predictor: stencil of the corrector, or five-point central.
         predictor: Predictor = always(Predictor::Same), source(&["bhagwat2001"]);
@@ -192,8 +192,9 @@ declare! {
         /// Passes after each step in which circulation and far inflow are found again with the wake held.
         recorrect: usize = always(0), between(0.0, 3.0);
 
-        /// Whether the far inflow is carried on linearly in azimuth, half a step for the flight, a whole one for the wake.
-        extrapolate: bool = always(false);
+        /// Whether inflow goes on over a step as it did where the blade before passed: the total of the flight dynamics, the far
+        /// inflow of the circulation that is released. Held, it is half a step and a step late.
+        extrapolate: bool = always(true);
 
         /// Azimuth over which the flight dynamics keep a map of the inflow while the wake goes on.
         update_interval: Option<f64> = left_open(None, "every step"), unit("rad"), above(0.0, 10.0 * TAU);
