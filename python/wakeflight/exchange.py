@@ -58,7 +58,7 @@ class Exchange:
         return [(step + b * self.n // self.model.n_blades) % self.n for b in range(self.model.n_blades)]
 
     def held(self, step: int) -> tuple[np.ndarray | None, float, np.ndarray | None]:
-        """Total inflow (n_blades, n_stations) where a step begins, None where it is in the state; disk mean; change over the step.
+        """Inflow (n_blades, n_stations) where a step begins, None where it is in the state; disk mean; change over the step.
 
         A marching wake's mean is that of the latest passage of every azimuth: over the blades' present azimuths alone it would
         swing by n per revolution. The change is that of a map by azimuth, or the one that the blade before had there; None where

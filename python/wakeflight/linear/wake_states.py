@@ -5,7 +5,7 @@ lambda(psi, r, t) = D(psi, r) u + C(psi, r) x, x_dot = A x + B(psi) u: u are mot
 do by their modes; the maps are by azimuth. D holds every mode of every blade. What is answered later is so to motion that the
 fixed frame sees as slow: multiblade coordinates, and the second harmonic that all blades make in turn, whose amplitude is twice
 the mean of its product with their motion. A flight carries the inflow on over a step, so that what is felt at an azimuth is the
-map there; where it holds it instead (`extrapolate=False`), that is the mean of the maps there and a step before, half a step late.
+map there; where it holds it (`extrapolate=False`), that is the mean of the maps there and a step before, half a step late.
 """
 
 from __future__ import annotations
