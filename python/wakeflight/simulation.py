@@ -284,8 +284,7 @@ class Simulation(Stepping):
             speed = model.omega * float(shares(model.rotor_speed, np.asarray(t)))
         else:
             speed = model.omega
-        through_air = None if self._air is None else self._air.against(y)
-        return Sensors(y, self.start.condition.altitude, speed, measure, through_air)
+        return Sensors(y, self.start.condition.altitude, speed, measure, self._air)
 
     def _asked(self, sticks: Mapping[str, float] | Sequence[float] | None) -> np.ndarray:
         """Sticks [m from the stop] for what was asked [inches about trim]."""

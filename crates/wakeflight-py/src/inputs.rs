@@ -1,9 +1,10 @@
 //! What acts on the system over a coupling step: controls, held inflow, engines, wind, memory of the sections.
 
 use crate::checks::{Table, columns, invalid, pack};
+use crate::wind::PyAir;
 use pyo3::prelude::*;
 use wakeflight::blade::memory_rows::MemoryRows;
-use wakeflight::system::instant::{Disturbance, EngineInput, Gust, HeldInflow, HeldMemory, Inputs};
+use wakeflight::system::instant::{EngineInput, HeldInflow, HeldMemory, Inputs};
 use wakeflight::wake::airframe::{AtParts, PARTS};
 
 /// Memory of sections that remember, blade by blade, where a coupling step begins; see `wakeflight.exchange`.
@@ -29,9 +30,11 @@ pub struct PyInputs(pub(crate) Inputs);
 
 #[pymethods]
 impl PyInputs {
-    /// Sticks [m] and rates [m/s] at `t_start` [s]; inflow (n_blades, n_stations), None for the states of y.
+    /// Sticks [m] and rates [m/s] at `t_start` [s]; inflow (n_blades, n_stations), None for the states of y; engines: torque of those
+    /// without a governor [N m], share of the fuel of those with one; the wind.
     #[new]
-    #[pyo3(signature = (stick, stick_rate, t_start, inflow, mean_inflow, stabilator_incidence, vacuum=false))]
+    #[pyo3(signature = (stick, stick_rate, t_start, inflow, mean_inflow, stabilator_incidence, vacuum=false, engines=None, air=None))]
+    #[expect(clippy::too_many_arguments, reason = "what acts is made in one call, at every step")]
     fn new(
         stick: [f64; 4],
         stick_rate: [f64; 4],
@@ -40,6 +43,8 @@ impl PyInputs {
         mean_inflow: f64,
         stabilator_incidence: f64,
         vacuum: bool,
+        engines: Option<(f64, f64)>,
+        air: Option<&PyAir>,
     ) -> PyResult<Self> {
         let inflow = match (inflow, vacuum) {
             (_, true) => HeldInflow::Vacuum,
@@ -48,7 +53,8 @@ impl PyInputs {
                 HeldInflow::Stations { inflow: map.as_array().iter().copied().collect(), mean: mean_inflow }
             }
         };
-        Ok(Self(Inputs {
+        let engine = engines.map_or_else(EngineInput::default, |(torque, fuel)| EngineInput { torque, fuel });
+        let inputs = Inputs {
             stick,
             stick_rate,
             t_start,
@@ -56,26 +62,13 @@ impl PyInputs {
             wash: None,
             sections: Vec::new(),
             stabilator_incidence,
-            engine: EngineInput::default(),
+            engine,
             disturbance: None,
+        };
+        Ok(Self(match air {
+            Some(air) => inputs.blown(&air.inner, air.n_stations),
+            None => inputs,
         }))
-    }
-
-    /// The same with engines: torque of those without a governor [N m], share of the fuel of those with one.
-    fn driven(&self, torque: f64, fuel: f64) -> Self {
-        Self(Inputs { engine: EngineInput { torque, fuel }, ..self.0.clone() })
-    }
-
-    /// The same in a wind: at the origin [m/s], inertial axes; where it differs from place to place, at the hub less that, its rates
-    /// about the airframe [rad/s], and what it adds to the inflow at the stations.
-    #[pyo3(signature = (origin, gust=None))]
-    fn blown(&self, origin: [f64; 3], gust: Option<GustRows>) -> Self {
-        let gust = gust.map(|(at_hub, turn, stations)| {
-            let stations = stations.map_or_else(Vec::new, |rows| rows.as_array().iter().copied().collect());
-            Gust { at_hub, turn, stations }
-        });
-        let disturbance = Some(Disturbance { wind: origin, gust, speed: vec![[0.0; 2]] });
-        Self(Inputs { disturbance, ..self.0.clone() })
     }
 
     /// The same with the air of the wake at fuselage, stabilator, fin and tail rotor (4, 3) [m/s], body axes, in place of washes.
@@ -95,6 +88,3 @@ pub(crate) fn at_parts(wash: &Table) -> PyResult<AtParts> {
     rows.try_into()
         .map_err(|rows: Vec<[f64; 3]>| invalid(format!("wash: {} parts, {} needed", rows.len(), PARTS.len())))
 }
-
-/// Where a wind is not the same everywhere: at the hub less that at the origin, its rates, rows of inflow by station.
-type GustRows<'py> = ([f64; 3], [f64; 3], Option<Table<'py>>);
