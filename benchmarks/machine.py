@@ -62,6 +62,11 @@ class Flown:
         return (time.process_time() - begun) / steps * 1e6
 
 
+def quickest(spent: list[float]) -> float:
+    """Mean over the revolutions of the quickest time that each of them took."""
+    return statistics.mean(min(spent[k::REVOLUTIONS]) for k in range(REVOLUTIONS))
+
+
 def main() -> None:
     """Fly the cases asked for beside the bare flight."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -93,8 +98,8 @@ def main() -> None:
     rows = []
     for name, spent in times.items():
         ratios = [a / b for a, b in zip(spent, times["bare"], strict=True)]
-        least, median = min(spent), statistics.median(spent)
-        cells = [f"{least:.0f}", f"{median:.0f}", f"{least / min(times['bare']):.3f}", f"{statistics.median(ratios):.3f}"]
+        least, median = quickest(spent), statistics.median(spent)
+        cells = [f"{least:.0f}", f"{median:.0f}", f"{least / quickest(times['bare']):.3f}", f"{statistics.median(ratios):.3f}"]
         rows.append([name, *cells])
     print(f"Measured on: {measure.machine()}.\n")
     print(measure.table(["on", "least us a step", "median", "ratio of the least", "median of ratios"], rows))

@@ -1,7 +1,7 @@
 """The compiled physics core: conversions in and out, SI units and radians throughout."""
 
 from collections.abc import Sequence
-from typing import Any, final
+from typing import Any, Self, final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -101,7 +101,7 @@ class Feedback:
 @final
 class ControlChain:
     series: _Array
-    parallel: list[float]
+    parallel: _Array
     offset: _Array
     reached: _Array
     seconds: list[list[float]]
@@ -114,7 +114,7 @@ class ControlChain:
     ) -> ControlChain: ...
     def ask(self, t: float, due: Sequence[int], sensed: Sensed, side_force: float) -> int | None: ...
     def answered(self, k: int, inches: Sequence[float], held: Sequence[bool]) -> None: ...
-    def advance(self, hands0: _Array, hands1: _Array, dt: float) -> tuple[_Array, _Array]: ...
+    def advance(self, hands0: _Array, hands1: _Array, dt: float) -> tuple[_Array, _Array, _Array]: ...
     def memory(self) -> bytes: ...
     def recall(self, memory: bytes) -> None: ...
 
@@ -302,7 +302,7 @@ class Exchange:
         y: _Array,
         sticks: _Pair,
         motion: _Pair | None = None,
-        flown: tuple[float, float, Inputs, tuple[_Vector, _Array | None] | None] | None = None,
+        flown: tuple[float, float, Inputs, Air | None] | None = None,
     ) -> None: ...
     def turn(self, core: System, y: _Array, stick: _Array, motion: _Pair) -> _Pair: ...
     def restart(self) -> None: ...

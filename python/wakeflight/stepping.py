@@ -29,8 +29,8 @@ class Instant:
     stick: np.ndarray
     mean_inflow: float
     stabilator: float
-    wind: np.ndarray | None
-    """Velocity of the air at the origin of the body (3,) [m/s], inertial axes; None in still air."""
+    air: Air | None
+    """Wind over the step; None in still air."""
 
 
 class Observer(Protocol):
@@ -137,8 +137,7 @@ class Stepping:
         clock = time.perf_counter()
         y_dot = self.solver.consistent(t, self._y, inputs)
         self.seconds["dynamics"] += time.perf_counter() - clock
-        wind = None if self._air is None else self._air.origin
-        return Instant(self._step, t, self._y, y_dot, inputs, stick, mean, self._incidence, wind)
+        return Instant(self._step, t, self._y, y_dot, inputs, stick, mean, self._incidence, self._air)
 
     def _turned(self, t: float) -> None:
         """The step has ended at `t`: what a rotor has whose speed is a state."""

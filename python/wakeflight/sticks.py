@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Protocol
 
 import numpy as np
@@ -42,12 +43,18 @@ class Ramp:
 
     def at(self, t: float) -> np.ndarray:
         """Positions (4,) [m from the stop] at time `t` [s]."""
-        return self.target if t >= self.end else self.start + self.rate(t) * (t - self.begin)
+        if t >= self.end:
+            return self.target
+        return self.start if t == self.begin else self.start + self._rate * (t - self.begin)
+
+    @cached_property
+    def _rate(self) -> np.ndarray:
+        found: np.ndarray = (self.target - self.start) / (self.end - self.begin)
+        return found
 
     def rate(self, t: float) -> np.ndarray:
         """Rates (4,) [m/s]."""
-        found: np.ndarray = (self.target - self.start) / (self.end - self.begin)
-        return found
+        return self._rate
 
     def pieces(self, t0: float, t1: float) -> list[tuple[float, float]]:
         """One."""

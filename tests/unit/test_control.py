@@ -113,7 +113,7 @@ def test_servos_stop_at_their_stops_and_say_so():
     servos = mounted(given, np.zeros(4), matrix, np.zeros(4))
     chain = ControlChain([], ([1.0] * 4, [1.0] * 4, [10.0] * 4), servos, np.zeros(4))
     target = np.full(4, 0.2)
-    before, after = chain.advance(target, target, 0.1)
+    _, before, after = chain.advance(target, target, 0.1)
     assert before == pytest.approx(np.zeros(4)) and after == pytest.approx([0.2, 0.2, 0.1 / 3.0, 0.2])
     assert chain.seconds == [[0.0] * 4, [0.0] * 4, [0.0, 0.0, 0.1, 0.0]]
 

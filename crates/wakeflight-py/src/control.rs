@@ -240,11 +240,12 @@ impl PyChain {
         self.inner.answered(k, Answer { inches, held });
     }
 
-    /// Sticks [m] that reach the blades at the two ends of a piece of `dt` [s] while the hands go along a straight line.
-    fn advance(&mut self, hands0: Row, hands1: Row, dt: f64) -> PyResult<(Array, Array)> {
+    /// While the hands go along a straight line for `dt` [s]: sticks [m] as parallel members have moved them where it begins, and
+    /// those that reach the blades at its two ends.
+    fn advance(&mut self, hands0: Row, hands1: Row, dt: f64) -> PyResult<(Array, Array, Array)> {
         let hands = [four(&hands0)?, four(&hands1)?];
         let [from, to] = self.inner.advance(hands, dt);
-        Ok((array(from, &[]), array(to, &[])))
+        Ok((array(self.inner.moved(&hands[0]), &[]), array(from, &[]), array(to, &[])))
     }
 
     /// Inches added in series (4,).
@@ -253,10 +254,10 @@ impl PyChain {
         array(self.inner.kept().series, &[])
     }
 
-    /// Inches that the stick is moved by (4,).
+    /// Inches that parallel members move the stick by (4,).
     #[getter]
-    fn parallel(&self) -> Sticks {
-        self.inner.kept().parallel
+    fn parallel(&self) -> Array {
+        array(self.inner.kept().parallel, &[])
     }
 
     /// What is added to the hands (4,) [m].

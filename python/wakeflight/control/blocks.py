@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from .. import _core
+from .._core import Feedback
 from ..errors import InputError
 from ..sticks import STICKS
 from ..units import quantity
@@ -47,7 +47,7 @@ class Block(Controller):
     works: tuple[float, float] | None = None
     """Airspeeds [m/s] from which it works, and works fully; None: always."""
     rate: str | None
-    _law: _core.Feedback | None
+    _law: Feedback | None
 
     def _make(
         self,
@@ -80,17 +80,17 @@ class Block(Controller):
         self._law = None
 
     @property
-    def law(self) -> _core.Feedback:
+    def law(self) -> Feedback:
         """Feedback of the core with its memory, made where it is first asked for."""
         if self._law is None:
             terms = [
                 (STICKS.index(term.stick), term.sign * size, term.signal, term.angle)
                 for term, size in ((self.terms[k], size) for k, size in self.sizes.items())
             ]
-            self._law = _core.Feedback(terms, self.constants, self.works, self.along_path, self.limits)
+            self._law = Feedback(terms, self.constants, self.works, self.along_path, self.limits)
         return self._law
 
-    def feedback(self) -> _core.Feedback | None:
+    def feedback(self) -> Feedback | None:
         """Its law; of a class with a `step` of its own that is asked."""
         return self.law if type(self).step is Block.step else None
 

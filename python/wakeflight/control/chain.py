@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from .. import _core
+from .._core import ControlChain
 from ..errors import InputError, NumericalFailure, WakeflightError, one_line
 from ..sticks import INCH, STICKS, Added, Ramp, StickPath
 from . import gains
@@ -116,7 +116,7 @@ class Chain:
             servos = mounted(made.actuators, offset, matrix, self.trim)  # type: ignore[arg-type]
         self.has_servos = servos is not None
         members = [(member.feedback, member.acts) for member in self.members]
-        self.core = _core.ControlChain(members, (limit, made.scale, travel), servos, self.trim)
+        self.core = ControlChain(members, (limit, made.scale, travel), servos, self.trim)
         self.hands = self.pilot = self.trim
 
     def pieces(self, sticks: StickPath, t0: float, t1: float) -> list[tuple[float, float]]:
@@ -139,8 +139,7 @@ class Chain:
         due = [k for k, member in enumerate(self.members) if member.due(t0, begins)]
         if due:
             self._ask(t0, due, hands, sense())
-        before, after = self.core.advance(hands, self.hands, t1 - t0)
-        self.pilot = self._moved(hands)
+        self.pilot, before, after = self.core.advance(hands, self.hands, t1 - t0)
         if self.has_servos:
             return Ramp(t0, t1, before, after)
         return Added(sticks, self.core.offset, {t0: before, t1: after})
@@ -162,16 +161,10 @@ class Chain:
 
     def rest(self, sticks: StickPath, t: float) -> StickPath:
         """Sticks that reach the blades at `t`, where the flight ends."""
-        self.pilot = self._moved(sticks.at(t))
+        self.pilot = sticks.at(t) + INCH * self.core.parallel
         if not self.has_servos:
             return Added(sticks, self.core.offset)
         return Ramp(t, t + 1.0, self.reached, self.reached)
-
-    def _moved(self, hands: np.ndarray) -> np.ndarray:
-        """Sticks (4,) [m] where the hands have them, as the parallel actuators move them."""
-        parallel = self.core.parallel
-        moved: np.ndarray = hands + INCH * np.array(parallel) if any(parallel) else hands
-        return moved
 
     @property
     def series(self) -> np.ndarray:
@@ -206,9 +199,10 @@ class Chain:
 
     def counted(self) -> dict[str, dict[str, float]]:
         """Seconds that limits held the chain, by stick or blade pitch."""
-        held = dict(zip(("sas_saturated", "actuator_rate_limited", "actuator_at_stop"), self.core.seconds, strict=True))
-        named = {"sas_saturated": STICKS} | ({"actuator_rate_limited": PITCH, "actuator_at_stop": PITCH} if self.has_servos else {})
-        return {name: dict(zip(each, held[name], strict=True)) for name, each in named.items()}
+        names = {"sas_saturated": STICKS, "actuator_rate_limited": PITCH, "actuator_at_stop": PITCH}
+        told = zip(names.items(), self.core.seconds, strict=True)
+        found = {name: dict(zip(each, seconds, strict=True)) for (name, each), seconds in told}
+        return found if self.has_servos else {"sas_saturated": found["sas_saturated"]}
 
 
 def _said(reason: Exception) -> str:

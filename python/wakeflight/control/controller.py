@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from .. import _core
+from .._core import Feedback
 from ..errors import InputError
 from ..sticks import STICKS
 from ..units import quantity
@@ -72,7 +72,7 @@ class Controller:
         vars(self).clear()
         vars(self).update(state)
 
-    def feedback(self) -> _core.Feedback | None:
+    def feedback(self) -> Feedback | None:
         """What it is to the core, which then answers in its place; None: `step` is asked."""
         return None
 

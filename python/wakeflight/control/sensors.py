@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from .. import _core
+from .._core import Air, Sensed
 from ..errors import InputError
 from ..units import STANDARD_GRAVITY
 
@@ -24,7 +24,7 @@ SIGNALS = (
 """Names of all of them."""
 
 
-class Sensors(_core.Sensed):
+class Sensors(Sensed):
     """The flight at one moment, exact, SI and radians; attributes by the names of `SIGNALS`.
 
     u, v, w over ground [m/s], p, q, r [rad/s]: body axes. roll, pitch, yaw [rad]: 3-2-1 angles. north, east, down [m] from there.
@@ -36,10 +36,10 @@ class Sensors(_core.Sensed):
     _measure: Measure
 
     def __new__(
-        cls, y: np.ndarray, ground: float, rotor_speed: float, measure: Measure, air: _core.Air | None = None
+        cls, y: np.ndarray, ground: float, rotor_speed: float, measure: Measure, air: Air | None = None
     ) -> Sensors:
         """Of states `y` over ground at an altitude [m], with the speed of the rotor [rad/s] and the air, where it moves."""
-        found = super().__new__(cls, y, ground, rotor_speed, air)
+        found: Sensors = super().__new__(cls, y, ground, rotor_speed, air)
         found._measure = measure
         return found
 

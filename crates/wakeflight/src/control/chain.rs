@@ -92,6 +92,11 @@ impl Chain {
         }
     }
 
+    /// Sticks [m] where the hands have them, as parallel members move them.
+    pub fn moved(&self, hands: &Sticks) -> Sticks {
+        std::array::from_fn(|k| hands[k] + INCH * self.kept.parallel[k])
+    }
+
     /// What is added to the hands [m].
     pub fn offset(&self) -> Sticks {
         std::array::from_fn(|k| INCH * (self.kept.parallel[k] + self.kept.series[k]))
