@@ -5,6 +5,7 @@ from typing import Any, Self, final
 
 import numpy as np
 from numpy.typing import NDArray
+from typing_extensions import disjoint_base
 
 _Vector = Sequence[float] | NDArray[np.float64]
 _Array = NDArray[np.float64]
@@ -25,9 +26,8 @@ class Inputs:
         mean_inflow: float,
         stabilator_incidence: float,
         vacuum: bool = False,
-        engines: tuple[float, float] | None = None,
-        air: Air | None = None,
     ) -> Inputs: ...
+    def under(self, engines: tuple[float, float] | None = None, air: Air | None = None) -> Inputs: ...
     def washed(self, wash: _Array) -> Inputs: ...
     def remembering(self, sections: SectionMemory, begun: float) -> Inputs: ...
 
@@ -61,6 +61,7 @@ class WindPlaces:
     def felt(self, y: _Array, found: _Array) -> Air: ...
     def blown(self, wind: Wind, t: float, y: _Array, azimuth: float, ahead: float) -> Air: ...
 
+@disjoint_base
 class Sensed:
     u: float
     v: float

@@ -39,6 +39,7 @@ from .units import number, quantity
 from .views import html_table
 from .wind import Surroundings, Wind, passing, wind_of
 
+COLLECTIVE = STICKS.index("collective")
 RTOLS = (1e-14, 0.1)
 """Least and largest relative tolerance that can be asked for."""
 
@@ -188,7 +189,7 @@ class Simulation(Stepping):
 
     def _drive(self) -> None:
         """What the engines give over the step that begins."""
-        collective = float(self._stick[STICKS.index("collective")])
+        collective = float(self._stick[COLLECTIVE])
         speed = float(self._y[self.model.layout["turn"][0] + 1])
         self._engine = known(self.engine).given(self.t, self.delta_t, speed, collective)
 

@@ -145,5 +145,7 @@ class Stepping:
     def _inputs(self, t: float, stick: np.ndarray, rate: np.ndarray) -> tuple[_core.Inputs, float]:
         """Sticks from `t` on; inflow, memory of the sections, stabilator, engines and wind held."""
         held, mean = self.exchange.held(self._step)
-        inputs = _core.Inputs(stick, rate, t, held, mean, self._incidence, False, self._engine, self._air)
+        inputs = _core.Inputs(stick, rate, t, held, mean, self._incidence)
+        if self._engine is not None or self._air is not None:
+            inputs = inputs.under(self._engine, self._air)
         return self.exchange.remembering(self.exchange.washing(inputs), self.t), mean

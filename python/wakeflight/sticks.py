@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from functools import cached_property
 from typing import Protocol
 
 import numpy as np
@@ -32,25 +31,19 @@ class StickPath(Protocol):
         """The interval t0..t1 cut at the corners."""
 
 
-@dataclass(frozen=True)
 class Ramp:
     """Sticks [m] that go from one place to another in a coupling step, and arrive with the rate they moved at."""
 
-    begin: float
-    end: float
-    start: np.ndarray
-    target: np.ndarray
+    def __init__(self, begin: float, end: float, start: np.ndarray, target: np.ndarray):
+        """From `start` at `begin` [s] to `target` at `end` [s]."""
+        self.begin, self.end, self.start, self.target = begin, end, start, target
+        self._rate: np.ndarray = (target - start) / (end - begin)
 
     def at(self, t: float) -> np.ndarray:
         """Positions (4,) [m from the stop] at time `t` [s]."""
         if t >= self.end:
             return self.target
         return self.start if t == self.begin else self.start + self._rate * (t - self.begin)
-
-    @cached_property
-    def _rate(self) -> np.ndarray:
-        found: np.ndarray = (self.target - self.start) / (self.end - self.begin)
-        return found
 
     def rate(self, t: float) -> np.ndarray:
         """Rates (4,) [m/s]."""

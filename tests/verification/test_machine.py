@@ -124,7 +124,8 @@ def test_derivatives_in_a_wind_are_those_by_differences(baseline_dynamic, rotor_
         y = np.array(sim.y)
         y[6:10] = np.array(attitude) / np.linalg.norm(attitude)
         air = Surroundings(model, wind_of(AIR)).at(0.01, y, 0.3)
-        inputs = _core.Inputs(baseline_dynamic.stick_si, np.zeros(4), 0.0, None, 0.0, 0.0, False, sim._engine, air)
+        bare = _core.Inputs(baseline_dynamic.stick_si, np.zeros(4), 0.0, None, 0.0, 0.0)
+        inputs = bare.under(sim._engine, air)
         y_dot = consistent_rate(model, 0.0, y, inputs)
         exact, n = np.empty((y.size, y.size)), y.size
         model.core.jacobian(0.0, y, y_dot, inputs, (1.0, 0.0), exact)

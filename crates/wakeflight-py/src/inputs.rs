@@ -30,11 +30,9 @@ pub struct PyInputs(pub(crate) Inputs);
 
 #[pymethods]
 impl PyInputs {
-    /// Sticks [m] and rates [m/s] at `t_start` [s]; inflow (n_blades, n_stations), None for the states of y; engines: torque of those
-    /// without a governor [N m], share of the fuel of those with one; the wind.
+    /// Sticks [m] and rates [m/s] at `t_start` [s]; inflow (n_blades, n_stations), None for the states of y.
     #[new]
-    #[pyo3(signature = (stick, stick_rate, t_start, inflow, mean_inflow, stabilator_incidence, vacuum=false, engines=None, air=None))]
-    #[expect(clippy::too_many_arguments, reason = "what acts is made in one call, at every step")]
+    #[pyo3(signature = (stick, stick_rate, t_start, inflow, mean_inflow, stabilator_incidence, vacuum=false))]
     fn new(
         stick: [f64; 4],
         stick_rate: [f64; 4],
@@ -43,8 +41,6 @@ impl PyInputs {
         mean_inflow: f64,
         stabilator_incidence: f64,
         vacuum: bool,
-        engines: Option<(f64, f64)>,
-        air: Option<&PyAir>,
     ) -> PyResult<Self> {
         let inflow = match (inflow, vacuum) {
             (_, true) => HeldInflow::Vacuum,
@@ -53,8 +49,7 @@ impl PyInputs {
                 HeldInflow::Stations { inflow: map.as_array().iter().copied().collect(), mean: mean_inflow }
             }
         };
-        let engine = engines.map_or_else(EngineInput::default, |(torque, fuel)| EngineInput { torque, fuel });
-        let inputs = Inputs {
+        Ok(Self(Inputs {
             stick,
             stick_rate,
             t_start,
@@ -62,13 +57,22 @@ impl PyInputs {
             wash: None,
             sections: Vec::new(),
             stabilator_incidence,
-            engine,
+            engine: EngineInput::default(),
             disturbance: None,
-        };
-        Ok(Self(match air {
+        }))
+    }
+
+    /// The same with engines, torque of those without a governor [N m] and share of the fuel of those with one, and in a wind.
+    #[pyo3(signature = (engines=None, air=None))]
+    fn under(&self, engines: Option<(f64, f64)>, air: Option<&PyAir>) -> Self {
+        let mut inputs = self.0.clone();
+        if let Some((torque, fuel)) = engines {
+            inputs.engine = EngineInput { torque, fuel };
+        }
+        Self(match air {
             Some(air) => inputs.blown(&air.inner, air.n_stations),
             None => inputs,
-        }))
+        })
     }
 
     /// The same with the air of the wake at fuselage, stabilator, fin and tail rotor (4, 3) [m/s], body axes, in place of washes.

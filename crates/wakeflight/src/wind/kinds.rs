@@ -1,10 +1,7 @@
 //! Winds in closed form: steady, gusts, turbulence of waves, and sums of them, at points in inertial axes.
 
-use super::places::Spread;
+use super::spread::{Spread, Triple, dot};
 use crate::numerics::fourier::FourierField;
-
-/// A point or a velocity: north, east, down [m], [m/s].
-pub type Triple = [f64; 3];
 
 /// A gust frozen in space: its velocity grows along a line, as a cosine from none to all over half of its length.
 #[derive(Clone, Debug)]
@@ -133,11 +130,6 @@ fn less(points: &[Triple], taken: &Triple) -> Vec<Triple> {
 
 fn add(sum: &mut Triple, more: &Triple) {
     (0..3).for_each(|i| sum[i] += more[i]);
-}
-
-/// Scalar product.
-pub(super) fn dot(a: &Triple, b: &Triple) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 #[cfg(test)]

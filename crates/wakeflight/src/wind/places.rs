@@ -1,52 +1,8 @@
 //! The places of an aircraft that feel a wind: origin of the body, hub, tail, blade stations; what the wind is to it there.
 
-use super::kinds::{Triple, dot};
+use super::spread::{Spread, Triple, dot};
 use crate::numerics::frames::{Body, Inertial, Rotation, Vec3, rot_ib};
 use crate::rotor::hub::Rotor;
-
-/// Places in inertial axes [m]: three fixed to the airframe, stations on straight blades.
-#[derive(Clone, Debug)]
-pub struct Spread {
-    /// Origin of the body, hub, tail.
-    pub fixed: [Triple; 3],
-    /// Unit vectors along the blades (n_blades,).
-    pub spokes: Vec<Triple>,
-    /// Distances of the stations from the hub [m].
-    pub reach: Vec<f64>,
-}
-
-impl Spread {
-    /// Number of places.
-    pub fn len(&self) -> usize {
-        self.fixed.len() + self.spokes.len() * self.reach.len()
-    }
-
-    /// Whether there is none.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-
-    /// The hub.
-    pub fn hub(&self) -> &Triple {
-        &self.fixed[1]
-    }
-
-    /// The fixed ones, then station by station, blade by blade.
-    pub fn points(&self) -> impl Iterator<Item = Triple> {
-        let hub = self.fixed[1];
-        let blade = move |s: &Triple| {
-            let s = *s;
-            self.reach.iter().map(move |r| std::array::from_fn(|i| hub[i] + s[i] * r))
-        };
-        self.fixed.into_iter().chain(self.spokes.iter().flat_map(blade))
-    }
-
-    /// All of them moved back by `taken`.
-    pub(super) fn less(&self, taken: &Triple) -> Self {
-        let fixed = self.fixed.map(|p| std::array::from_fn(|i| p[i] - taken[i]));
-        Self { fixed, ..self.clone() }
-    }
-}
 
 /// A wind where an aircraft is, held over a coupling step; velocities in inertial axes [m/s].
 #[derive(Clone, Debug, Default)]
@@ -73,8 +29,11 @@ impl Air {
     /// Adds what the stations have to rows of held inflow, of thin sections along both lines of the chord.
     pub fn on(&self, n_stations: usize, held: &mut [f64]) {
         let Some(stations) = self.stations.as_ref().filter(|rows| !rows.is_empty()) else { return };
-        let blades = stations.len() / n_stations;
-        for (row, felt) in held.chunks_mut(held.len() / blades).zip(stations.chunks(n_stations)) {
+        let width = held.len() * n_stations / stations.len();
+        if width == 0 {
+            return;
+        }
+        for (row, felt) in held.chunks_mut(width).zip(stations.chunks(n_stations)) {
             row.iter_mut().zip(felt.iter().cycle()).for_each(|(inflow, more)| *inflow += more);
         }
     }
