@@ -83,8 +83,7 @@ class Exchange:
         end; None: a step of azimuth at the nominal speed. air: wind where a step was flown; that at the hub carries the wake.
         """
         n = self.model.n_controls
-        wind = None if air is None else (air.at_hub, air.stations)
-        step_flown = None if flown is None else (*flown, wind)
+        step_flown = None if flown is None else (*flown, air)
         self.core.advance(self.model.core, step, y, (stick[:n], stick_rate[:n]), motion, step_flown)
 
     @property

@@ -135,7 +135,7 @@ class CompiledRotor:
         """Shares of the disk's area between root cutout and tip that the stations stand for (n_stations,), summing to one."""
         return np.asarray(self.rotor["area_weights"])
 
-    @property
+    @cached_property
     def steps_per_revolution(self) -> int:
         """Coupling steps in a revolution."""
         return round(2 * np.pi / self.inflow.step(self.aircraft))

@@ -18,7 +18,6 @@ from .monitors import Monitor, Places, rotor, variables
 from .results.frames import body_of_hub
 from .run_attributes import convergence_attributes, described
 from .runlog import MemoryRows, MemoryWakes
-from .wind import passing
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -155,8 +154,8 @@ class Recorder:
             values[k] = out[name]
         through_air = y
         if self.wind is not None:
-            blown = known(at.wind)
-            self.wind[k], through_air = blown, passing(y, blown)
+            air = known(at.air)
+            self.wind[k], through_air = air.origin, air.passing(y)
         if self.wash is not None:
             self.wash[k] = known(self.exchange.wash)
         sample = self.azimuth[k], self.blade["inflow"][k], self.blade["mach"][k]

@@ -197,6 +197,7 @@ class FreeClock:
         self._step, self._t = 0, 0.0
         self._turn = (0.0, omega, 0.0)
         self._last = delta_psi / omega
+        self._length: float | None = None
 
     def own(self) -> FreeClock:
         """A new one, at the start."""
@@ -205,16 +206,20 @@ class FreeClock:
     def reach(self, step: int, t: float, turn: tuple[float, float, float]) -> None:
         """Begin the step after `step` at `t`."""
         self._last, self._step, self._t, self._turn = t - self._t, step, t, turn
+        self._length = None
 
     def _ahead(self) -> float:
-        """Length of the step that begins [s]."""
+        """Length of the step that begins [s], found once."""
+        if self._length is not None:
+            return self._length
         azimuth, omega, rate = self._turn
         left = (self._step + 1) * self.delta_psi - azimuth
         # the root that does not cancel
         squared = omega * omega + 2.0 * rate * left
         if not (omega > 0.0 and squared > 0.0 and left > 0.0):
             raise ArithmeticError(f"the rotor stops at t = {self._t:.4f} s: {omega:.4g} rad/s, {rate:.4g} rad/s2")
-        return 2.0 * left / (omega + math.sqrt(squared))
+        self._length = length = 2.0 * left / (omega + math.sqrt(squared))
+        return length
 
     def time(self, step: Time) -> Time:
         """Time [s] after `step` steps: exact for the present one and the next, beyond them at the present speed."""
@@ -246,6 +251,7 @@ class FreeClock:
         azimuth, omega, rate = memory["turn"]
         self._step, self._t, self._last = memory["step"], memory["time"], memory["last_step"]
         self._turn = (azimuth, omega, rate)
+        self._length = None
 
 
 def clock_of(core: Turning, omega: float, steps_per_revolution: int, corners: Corners) -> Clock:

@@ -39,6 +39,7 @@ from .units import number, quantity
 from .views import html_table
 from .wind import Surroundings, Wind, passing, wind_of
 
+COLLECTIVE = STICKS.index("collective")
 RTOLS = (1e-14, 0.1)
 """Least and largest relative tolerance that can be asked for."""
 
@@ -188,7 +189,7 @@ class Simulation(Stepping):
 
     def _drive(self) -> None:
         """What the engines give over the step that begins."""
-        collective = float(self._stick[STICKS.index("collective")])
+        collective = float(self._stick[COLLECTIVE])
         speed = float(self._y[self.model.layout["turn"][0] + 1])
         self._engine = known(self.engine).given(self.t, self.delta_t, speed, collective)
 
@@ -284,8 +285,7 @@ class Simulation(Stepping):
             speed = model.omega * float(shares(model.rotor_speed, np.asarray(t)))
         else:
             speed = model.omega
-        through_air = None if self._air is None else self._air.against(y)
-        return Sensors(y, self.start.condition.altitude, speed, measure, through_air)
+        return Sensors(y, self.start.condition.altitude, speed, measure, self._air)
 
     def _asked(self, sticks: Mapping[str, float] | Sequence[float] | None) -> np.ndarray:
         """Sticks [m from the stop] for what was asked [inches about trim]."""

@@ -29,8 +29,8 @@ class Instant:
     stick: np.ndarray
     mean_inflow: float
     stabilator: float
-    wind: np.ndarray | None
-    """Velocity of the air at the origin of the body (3,) [m/s], inertial axes; None in still air."""
+    air: Air | None
+    """Wind over the step; None in still air."""
 
 
 class Observer(Protocol):
@@ -137,8 +137,7 @@ class Stepping:
         clock = time.perf_counter()
         y_dot = self.solver.consistent(t, self._y, inputs)
         self.seconds["dynamics"] += time.perf_counter() - clock
-        wind = None if self._air is None else self._air.origin
-        return Instant(self._step, t, self._y, y_dot, inputs, stick, mean, self._incidence, wind)
+        return Instant(self._step, t, self._y, y_dot, inputs, stick, mean, self._incidence, self._air)
 
     def _turned(self, t: float) -> None:
         """The step has ended at `t`: what a rotor has whose speed is a state."""
@@ -146,13 +145,9 @@ class Stepping:
     def _inputs(self, t: float, stick: np.ndarray, rate: np.ndarray) -> tuple[_core.Inputs, float]:
         """Sticks from `t` on; inflow, memory of the sections, stabilator, engines and wind held."""
         held, mean, change = self.exchange.held(self._step)
-        if self._air is not None:
-            held = self._air.on(held)
         inputs = _core.Inputs(stick, rate, t, held, mean, self._incidence)
         if change is not None:
             inputs = inputs.carried(change, self.t, self.delta_t)
-        if self._engine is not None:
-            inputs = inputs.driven(*self._engine)
-        if self._air is not None:
-            inputs = inputs.blown(*self._air.acting(held is None))
+        if self._engine is not None or self._air is not None:
+            inputs = inputs.under(self._engine, self._air)
         return self.exchange.remembering(self.exchange.washing(inputs), self.t), mean

@@ -31,23 +31,23 @@ class StickPath(Protocol):
         """The interval t0..t1 cut at the corners."""
 
 
-@dataclass(frozen=True)
 class Ramp:
     """Sticks [m] that go from one place to another in a coupling step, and arrive with the rate they moved at."""
 
-    begin: float
-    end: float
-    start: np.ndarray
-    target: np.ndarray
+    def __init__(self, begin: float, end: float, start: np.ndarray, target: np.ndarray):
+        """From `start` at `begin` [s] to `target` at `end` [s]."""
+        self.begin, self.end, self.start, self.target = begin, end, start, target
+        self._rate: np.ndarray = (target - start) / (end - begin)
 
     def at(self, t: float) -> np.ndarray:
         """Positions (4,) [m from the stop] at time `t` [s]."""
-        return self.target if t >= self.end else self.start + self.rate(t) * (t - self.begin)
+        if t >= self.end:
+            return self.target
+        return self.start if t == self.begin else self.start + self._rate * (t - self.begin)
 
     def rate(self, t: float) -> np.ndarray:
         """Rates (4,) [m/s]."""
-        found: np.ndarray = (self.target - self.start) / (self.end - self.begin)
-        return found
+        return self._rate
 
     def pieces(self, t0: float, t1: float) -> list[tuple[float, float]]:
         """One."""

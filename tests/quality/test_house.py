@@ -24,8 +24,10 @@ RUST_ORDER = (
     "inflow",
     "blade",
     "rotor",
+    "wind",
     "airframe",
     "trim",
+    "control",
     "system",
     "integrate",
 )

@@ -8,9 +8,9 @@ import pytest
 from scipy.signal import lsim
 
 import wakeflight as wf
+from wakeflight._core import ControlChain, limited_lag, smoothed
 from wakeflight.control import Sensors
-from wakeflight.control.filters import Smoothed, limited_lag
-from wakeflight.control.servos import Moving, Servos
+from wakeflight.control.servos import Servos, mounted
 from wakeflight.control.state import packed, unpacked
 from wakeflight.sticks import INCH
 from wakeflight.units import convert
@@ -58,8 +58,7 @@ class Trimmed:
 def test_filters_answer_as_scipy_does(name, lag, washout, system):
     # lsim takes its input as straight between samples: exactly what a filter here is advanced for
     u = SIGNALS[name]
-    smooth = Smoothed(lag, washout)
-    found = np.array([smooth.advance(x, dt) for x, dt in zip(u, np.diff(TIME, prepend=TIME[0]), strict=True)])
+    found = smoothed(u, np.diff(TIME, prepend=TIME[0]), lag, washout)
     assert np.abs(found - lsim(system, u, TIME)[1]).max() < 1e-8
 
 
@@ -110,11 +109,13 @@ def test_a_ramp_faster_than_the_rate_is_followed_at_the_rate():
 
 def test_servos_stop_at_their_stops_and_say_so():
     matrix = np.diag([1.0, 2.0, 3.0, 4.0])
-    moving = Moving(Servos(lag="0 s", limits={"theta_0": ("-10 deg", "0.1 rad")}), np.zeros(4), matrix, np.zeros(4))
+    given = Servos(lag="0 s", limits={"theta_0": ("-10 deg", "0.1 rad")})
+    servos = mounted(given, np.zeros(4), matrix, np.zeros(4))
+    chain = ControlChain([], ([1.0] * 4, [1.0] * 4, [10.0] * 4), servos, np.zeros(4))
     target = np.full(4, 0.2)
-    stick, limited, stopped = moving.advance(target, target, 0.1)
-    assert stick == pytest.approx([0.2, 0.2, 0.1 / 3.0, 0.2])
-    assert stopped == [False, False, True, False] and not any(limited)
+    _, before, after = chain.advance(target, target, 0.1)
+    assert before == pytest.approx(np.zeros(4)) and after == pytest.approx([0.2, 0.2, 0.1 / 3.0, 0.2])
+    assert chain.seconds == [[0.0] * 4, [0.0] * 4, [0.0, 0.0, 0.1, 0.0]]
 
 
 def test_servos_that_cannot_be_are_refused():
@@ -128,7 +129,7 @@ def test_servos_that_cannot_be_are_refused():
         with pytest.raises(wf.InputError, match=named):
             Servos(**given)
     with pytest.raises(wf.InputError, match="can be inverted"):
-        Moving(Servos(), np.zeros(4), np.zeros((4, 4)) + 1.0, np.zeros(4))
+        mounted(Servos(), np.zeros(4), np.zeros((4, 4)) + 1.0, np.zeros(4))
 
 
 def test_units_of_gains_are_read():
@@ -251,8 +252,8 @@ def test_memory_is_kept_to_the_bit():
         k: v for k, v in state.items() if k not in ("array", "list")
     }
     assert again["list"][1] == (2.5, "b") and np.array_equal(again["list"][2]["k"], np.arange(3))
-    with pytest.raises(ValueError, match="filter is a Smoothed"):
-        packed({"filter": Smoothed(1.0, None)})
+    with pytest.raises(ValueError, match="servos is a Servos"):
+        packed({"servos": Servos()})
 
 
 FILE = """

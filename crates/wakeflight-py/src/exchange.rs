@@ -5,15 +5,13 @@ use crate::inputs::{PyInputs, SectionMemory, remembered};
 use crate::options::{marching_options, relaxation_options, wake_options};
 use crate::system::PySystem;
 use crate::wake::{RelaxationWake, TimeMarchingWake, py_error};
+use crate::wind::PyAir;
 use pyo3::prelude::*;
 use wakeflight::rotor::exchange::{
     Exchange, MarchingExchange, Place, Reached, RelaxationExchange, SteadyWake,
 };
 use wakeflight::system::instant::Instant;
 use wakeflight::wake;
-
-/// Wind at the hub [m/s], inertial axes, and at the stations beyond it as inflow (n_blades, n_stations).
-type WindAtRotor<'py> = ([f64; 3], Option<Table<'py>>);
 
 /// Relaxation wake of a periodic motion with its circulation and inflow; see `wakeflight.trim.wake`.
 #[pyclass(name = "SteadyWake", module = "wakeflight._core")]
@@ -223,7 +221,7 @@ impl PyExchange {
         y: Row,
         sticks: (Row, Row),
         motion: Option<Motion>,
-        flown: Option<(f64, f64, PyRef<PyInputs>, Option<WindAtRotor>)>,
+        flown: Option<(f64, f64, PyRef<PyInputs>, Option<PyRef<PyAir>>)>,
     ) -> PyResult<()> {
         if let Exchange::Dynamic(memory) = &mut self.inner {
             if let (Some((t, _, inputs, _)), false) = (&flown, memory.is_empty()) {
@@ -248,18 +246,22 @@ impl PyExchange {
         let blades = &system.blades_after((step, n), &motions, &controls);
         let renewed = self.inner.renews(step);
         let steady_pitch = &if renewed { system.steady_pitch(n, &controls) } else { Vec::new() };
-        let (mut gust, mut elapsed) = (Vec::new(), system.main().nominal_step(n));
+        let mut elapsed = system.main().nominal_step(n);
         let mut wind = None;
         if let Some((end, begun, _, air)) = flown {
             (elapsed, wind) = (end - begun, air);
         }
-        if let Some((at_hub, stations)) = wind {
-            hub = system.carrier.hub_in_wind(hub, (system.main(), core.state("y", &y)?), at_hub);
-            if let Some(rows) = stations {
-                gust = map("wind", &rows, found, system.main().blade.stations.len())?;
+        let mut gust: &[f64] = &[];
+        if let Some(air) = &wind {
+            let felt = &air.inner;
+            hub = system.carrier.hub_in_wind(hub, (system.main(), core.state("y", &y)?), felt.at_hub);
+            gust = felt.stations.as_deref().unwrap_or_default();
+            let needed = found * system.main().blade.stations.len();
+            if !gust.is_empty() && gust.len() != needed {
+                return Err(invalid(format!("wind at {} blade stations, {needed} needed", gust.len())));
             }
         }
-        let place = Place { turning, gust: &gust, ..core.place(&hub, &y)? };
+        let place = Place { turning, gust, ..core.place(&hub, &y)? };
         let reached = Reached { place, blades, steady_pitch, elapsed };
         y.py().detach(|| self.inner.advance(step, &reached)).map_err(py_error)
     }

@@ -1,9 +1,10 @@
 //! What acts on the system over a coupling step: controls, held inflow, engines, wind, memory of the sections.
 
 use crate::checks::{Table, columns, invalid, pack};
+use crate::wind::PyAir;
 use pyo3::prelude::*;
 use wakeflight::blade::memory_rows::MemoryRows;
-use wakeflight::system::instant::{Carried, Disturbance, EngineInput, Gust, HeldInflow, HeldMemory, Inputs};
+use wakeflight::system::instant::{Carried, EngineInput, HeldInflow, HeldMemory, Inputs};
 use wakeflight::wake::airframe::{AtParts, PARTS};
 
 /// Memory of sections that remember, blade by blade, where a coupling step begins; see `wakeflight.exchange`.
@@ -78,21 +79,17 @@ impl PyInputs {
         }
     }
 
-    /// The same with engines: torque of those without a governor [N m], share of the fuel of those with one.
-    fn driven(&self, torque: f64, fuel: f64) -> Self {
-        Self(Inputs { engine: EngineInput { torque, fuel }, ..self.0.clone() })
-    }
-
-    /// The same in a wind: at the origin [m/s], inertial axes; where it differs from place to place, at the hub less that, its rates
-    /// about the airframe [rad/s], and what it adds to the inflow at the stations.
-    #[pyo3(signature = (origin, gust=None))]
-    fn blown(&self, origin: [f64; 3], gust: Option<GustRows>) -> Self {
-        let gust = gust.map(|(at_hub, turn, stations)| {
-            let stations = stations.map_or_else(Vec::new, |rows| rows.as_array().iter().copied().collect());
-            Gust { at_hub, turn, stations }
-        });
-        let disturbance = Some(Disturbance { wind: origin, gust, speed: vec![[0.0; 2]] });
-        Self(Inputs { disturbance, ..self.0.clone() })
+    /// The same with engines, torque of those without a governor [N m] and share of the fuel of those with one, and in a wind.
+    #[pyo3(signature = (engines=None, air=None))]
+    fn under(&self, engines: Option<(f64, f64)>, air: Option<&PyAir>) -> Self {
+        let mut inputs = self.0.clone();
+        if let Some((torque, fuel)) = engines {
+            inputs.engine = EngineInput { torque, fuel };
+        }
+        Self(match air {
+            Some(air) => inputs.blown(&air.inner, air.n_stations),
+            None => inputs,
+        })
     }
 
     /// The same with the air of the wake at fuselage, stabilator, fin and tail rotor (4, 3) [m/s], body axes, in place of washes.
@@ -112,6 +109,3 @@ pub(crate) fn at_parts(wash: &Table) -> PyResult<AtParts> {
     rows.try_into()
         .map_err(|rows: Vec<[f64; 3]>| invalid(format!("wash: {} parts, {} needed", rows.len(), PARTS.len())))
 }
-
-/// Where a wind is not the same everywhere: at the hub less that at the origin, its rates, rows of inflow by station.
-type GustRows<'py> = ([f64; 3], [f64; 3], Option<Table<'py>>);

@@ -6,6 +6,7 @@ mod atmosphere;
 mod blade;
 mod carrier;
 mod checks;
+mod control;
 mod exchange;
 mod flight;
 mod inflow;
@@ -15,6 +16,7 @@ mod system;
 mod trim;
 mod vortex;
 mod wake;
+mod wind;
 
 /// The compiled core of wakeflight.
 #[pymodule]
@@ -25,8 +27,9 @@ mod _core {
     #[pymodule_export]
     use crate::{
         airfoil::{AirfoilCycle, airfoil_cycle, unsteady_models},
-        atmosphere::{fourier_velocity, standard_atmosphere},
+        atmosphere::standard_atmosphere,
         blade::BladeModes,
+        control::{PyChain, PyFeedback, PySensed, limited_lag, smoothed},
         exchange::{PyExchange, PySteadyWake},
         flight::{FixedStep, Linearised},
         inflow::{descent_inflow, momentum_inflow, pitt_peters_rate},
@@ -36,5 +39,6 @@ mod _core {
         trim::{TrimLayout, TrimProblem},
         vortex::{build_commit, induced_velocity, instruction_set, set_threads},
         wake::{RelaxationWake, TimeMarchingWake, near_wake_matrix, wing_circulation},
+        wind::{PyAir, PyPlaces, PyWind},
     };
 }

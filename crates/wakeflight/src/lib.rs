@@ -16,9 +16,13 @@ pub mod blade;
 
 pub mod rotor;
 
+pub mod wind;
+
 pub mod airframe;
 
 pub mod trim;
+
+pub mod control;
 
 pub mod system;
 

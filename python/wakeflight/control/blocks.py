@@ -3,24 +3,25 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
+import numpy as np
+
+from .._core import Feedback
 from ..errors import InputError
 from ..sticks import STICKS
-from ..units import STANDARD_GRAVITY, quantity
+from ..units import quantity
 from . import gains
 from .controller import Controller
-from .filters import Smoothed
 from .sensors import Sensors
 from .start import Start
 
 
 @dataclass(frozen=True)
 class Term:
-    """One feedback: `argument` names its gain, which goes with `sign` times the signal to `stick`.
+    """One feedback: `argument` names its gain, which goes with `sign` times the `signal` of that name to `stick`.
 
     unit: of the gain, SI with the stick in metres. angle: the signal is an angle, and its deviation counted the short way round.
     """
@@ -28,7 +29,7 @@ class Term:
     argument: str
     stick: str
     unit: str
-    signal: Callable[[Sensors], float]
+    signal: str
     sign: float = -1.0
     angle: bool = False
 
@@ -37,10 +38,16 @@ class Block(Controller):
     """Feedback of signals, as they differ from where the flight began, within an authority.
 
     Signals are taken as straight between two calls, filters are advanced exactly for that, answers are held until the next call.
+    The core does it: a block is its data.
     """
 
     terms: ClassVar[tuple[Term, ...]] = ()
+    along_path: ClassVar[bool] = False
+    """Whether altitude counts from the straight path of the beginning."""
+    works: tuple[float, float] | None = None
+    """Airspeeds [m/s] from which it works, and works fully; None: always."""
     rate: str | None
+    _law: Feedback | None
 
     def _make(
         self,
@@ -60,81 +67,58 @@ class Block(Controller):
             names = ", ".join(term.argument for term in self.terms)
             raise InputError.of(self.name, "no gain", f"needs at least one of {names}")
         self.outputs = tuple(name for name in STICKS if any(self.terms[k].stick == name for k in self.sizes))
-        self.constants = (
-            gains.seconds(f"{self.name}.lag", lag),
-            gains.seconds(f"{self.name}.washout", washout),
-        )
+        lags = gains.seconds(f"{self.name}.lag", lag), gains.seconds(f"{self.name}.washout", washout)
+        fast, slow = self.constants = lags
+        # a lag and a washout are the difference of two lags, which would be none
+        if fast is not None and slow is not None and abs(slow - fast) < 1e-6 * slow:
+            raise InputError.of("lag", f"{fast:g} s", "must differ from the washout")
         self._limit((10.0,) * 4)
-        self._forget()
 
     def _limit(self, travel: Sequence[float]) -> None:
-        """The authority in inches of sticks with a `travel` (4,) [in]."""
-        limits = gains.authority(f"{self.name}.authority", self.given["authority"], travel).tolist()
-        self.limits = dict(zip(STICKS, limits, strict=True))
+        """At rest, its authority in inches of sticks with a `travel` (4,) [in]."""
+        self.limits = gains.authority(f"{self.name}.authority", self.given["authority"], travel).tolist()
+        self._law = None
 
-    def _forget(self) -> None:
-        self.t: float | None = None
-        self.reference: list[float] = []
-        self.begun = 0.0
-        self.filters = [Smoothed(*self.constants) for _ in self.sizes]
-        self.held: tuple[str, ...] = ()
-        terms = [(self.terms[k], size) for k, size in self.sizes.items()]
-        self.fed = [
-            (term.stick, term.sign * size, term.angle, smooth)
-            for (term, size), smooth in zip(terms, self.filters, strict=True)
-        ]
+    @property
+    def law(self) -> Feedback:
+        """Feedback of the core with its memory, made where it is first asked for."""
+        if self._law is None:
+            terms = [
+                (STICKS.index(term.stick), term.sign * size, term.signal, term.angle)
+                for term, size in ((self.terms[k], size) for k, size in self.sizes.items())
+            ]
+            self._law = Feedback(terms, self.constants, self.works, self.along_path, self.limits)
+        return self._law
+
+    def feedback(self) -> Feedback | None:
+        """Its law; of a class with a `step` of its own that is asked."""
+        return self.law if type(self).step is Block.step else None
 
     def reset(self, start: Start) -> None:
         """At rest; the authority in inches of this aircraft."""
         self._limit(start.aircraft.stick_travel_in)
-        self._forget()
 
     def step(self, t: float, sensors: Sensors, stick: Mapping[str, float]) -> dict[str, float]:
         """Inches by stick."""
-        terms = self.terms
-        signals = [terms[k].signal(sensors) for k in self.sizes]
-        if self.t is None:
-            self.t = self.begun = t
-            self.reference = signals
-        dt, self.t = t - self.t, t
-        moved = dict.fromkeys(self.outputs, 0.0)
-        share = self.share(sensors)
-        changes = [signal - rest for signal, rest in zip(signals, self.reference, strict=True)]
-        for (name, size, angle, smooth), change in zip(self.fed, self.counted(changes), strict=True):
-            if angle:
-                change = math.remainder(change, 2.0 * math.pi)
-            moved[name] += size * share * smooth.advance(change, dt)
-        return self.within(moved)
-
-    def share(self, sensors: Sensors) -> float:
-        """Share of all gains that counts at this moment."""
-        return 1.0
-
-    def counted(self, changes: list[float]) -> list[float]:
-        """What counts of the changes of the signals since the beginning."""
-        return changes
-
-    def within(self, moved: dict[str, float]) -> dict[str, float]:
-        """Within the authority; keeps which sticks were held back."""
-        limits = self.limits
-        self.held = tuple([name for name, inches in moved.items() if abs(inches) > limits[name]])
-        return {name: min(limits[name], max(-limits[name], inches)) for name, inches in moved.items()}
+        inches = self.law.step(t, sensors, sensors.ay if self.law.measures else 0.0)
+        return {name: inches[STICKS.index(name)] for name in self.outputs}
 
     @property
     def saturated(self) -> tuple[str, ...]:
         """Sticks that the authority held back in the last call."""
-        return self.held
+        return tuple(name for name, held in zip(STICKS, self.law.held, strict=True) if held)
 
     def state(self) -> dict[str, Any]:
         """Time of the last call, signals of the beginning, filters."""
-        memory = [smooth.memory for smooth in self.filters]
-        return {"t": self.t, "begun": self.begun, "reference": self.reference, "filters": memory, "held": self.held}
+        return {"law": np.frombuffer(self.law.memory(), np.uint8)}
 
     def restore(self, state: Mapping[str, Any]) -> None:
         """Go on from what `state` gave."""
-        self.t, self.begun, self.reference, self.held = (state[name] for name in ("t", "begun", "reference", "held"))
-        for smooth, memory in zip(self.filters, state["filters"], strict=True):
-            smooth.memory = memory
+        self.law.recall(bytes(state["law"]))
+
+    def __getstate__(self) -> dict[str, Any]:
+        """What it was made with: a copy is at rest."""
+        return vars(self) | {"_law": None}
 
     def described(self) -> dict[str, Any]:
         """What it was made with."""
@@ -163,9 +147,9 @@ class RateDamping(Block):
     """
 
     terms = (
-        Term("roll", "lateral", "m s/rad", lambda s: s.p),
-        Term("pitch", "longitudinal", "m s/rad", lambda s: s.q),
-        Term("yaw", "pedal", "m s/rad", lambda s: s.r),
+        Term("roll", "lateral", "m s/rad", "p"),
+        Term("pitch", "longitudinal", "m s/rad", "q"),
+        Term("yaw", "pedal", "m s/rad", "r"),
     )
 
     def __init__(
@@ -190,12 +174,12 @@ class AttitudeHold(Block):
     """
 
     terms = (
-        Term("roll", "lateral", "m/rad", lambda s: s.roll, angle=True),
-        Term("roll_rate", "lateral", "m s/rad", lambda s: s.p),
-        Term("pitch", "longitudinal", "m/rad", lambda s: s.pitch),
-        Term("pitch_rate", "longitudinal", "m s/rad", lambda s: s.q),
-        Term("heading", "pedal", "m/rad", lambda s: s.yaw, angle=True),
-        Term("yaw_rate", "pedal", "m s/rad", lambda s: s.r),
+        Term("roll", "lateral", "m/rad", "roll", angle=True),
+        Term("roll_rate", "lateral", "m s/rad", "p"),
+        Term("pitch", "longitudinal", "m/rad", "pitch"),
+        Term("pitch_rate", "longitudinal", "m s/rad", "q"),
+        Term("heading", "pedal", "m/rad", "yaw", angle=True),
+        Term("yaw_rate", "pedal", "m s/rad", "r"),
     )
 
     def __init__(
@@ -216,16 +200,6 @@ class AttitudeHold(Block):
         self._make(given, authority, rate, acts, lag)
 
 
-SLOWEST_TURN = 10.0
-"""Airspeed [m/s] below which the rate of a coordinated turn, g tan(bank)/V, is taken as there: it grows without bound."""
-
-
-def turning(s: Sensors) -> float:
-    """Yaw rate beyond that of a coordinated turn at this bank, r - g sin(roll) cos(pitch)/V [rad/s]."""
-    coordinated = STANDARD_GRAVITY * math.sin(s.roll) * math.cos(s.pitch) / max(s.airspeed, SLOWEST_TURN)
-    return float(s.r - coordinated)
-
-
 class TurnCoordination(Block):
     """Pedals that keep the ball in the middle, above a speed: sideslip beta - lateral_acceleration a_y - yaw_rate (r - r_turn).
 
@@ -235,9 +209,9 @@ class TurnCoordination(Block):
     """
 
     terms = (
-        Term("sideslip", "pedal", "m/rad", lambda s: s.sideslip, sign=1.0, angle=True),
-        Term("lateral_acceleration", "pedal", "s2", lambda s: s.ay),
-        Term("yaw_rate", "pedal", "m s/rad", turning),
+        Term("sideslip", "pedal", "m/rad", "sideslip", sign=1.0, angle=True),
+        Term("lateral_acceleration", "pedal", "s2", "ay"),
+        Term("yaw_rate", "pedal", "m s/rad", "turning"),
     )
 
     def __init__(
@@ -255,12 +229,8 @@ class TurnCoordination(Block):
         given = {"sideslip": sideslip, "lateral_acceleration": lateral_acceleration, "yaw_rate": yaw_rate}
         self._make(given, authority, rate, acts, lag, washout)
         self.given["above"] = above
-        self.above = quantity(above, "m/s", f"{self.name}.above")
-        self.full = self.above + quantity("10 kt", "m/s", "above")
-
-    def share(self, sensors: Sensors) -> float:
-        """From none at the speed to all 10 kt beyond it."""
-        return min(1.0, max(0.0, (sensors.airspeed - self.above) / (self.full - self.above)))
+        slowest = quantity(above, "m/s", f"{self.name}.above")
+        self.works = slowest, slowest + quantity("10 kt", "m/s", "above")
 
 
 class AltitudeHold(Block):
@@ -270,9 +240,10 @@ class AltitudeHold(Block):
     default, it moves the stick itself.
     """
 
+    along_path = True
     terms = (
-        Term("altitude", "collective", "1", lambda s: s.altitude),
-        Term("climb_rate", "collective", "s", lambda s: s.climb_rate),
+        Term("altitude", "collective", "1", "altitude"),
+        Term("climb_rate", "collective", "s", "climb_rate"),
     )
 
     def __init__(
@@ -284,26 +255,4 @@ class AltitudeHold(Block):
         rate: str | None = None,
         acts: str = "parallel",
     ):
-        self.climb = 0.0
         self._make({"altitude": altitude, "climb_rate": climb_rate}, authority, rate, acts, lag)
-
-    def step(self, t: float, sensors: Sensors, stick: Mapping[str, float]) -> dict[str, float]:
-        """Inches by stick."""
-        if self.t is None:
-            self.climb = sensors.climb_rate
-        self.ahead = self.climb * (t - (t if self.t is None else self.begun))
-        return super().step(t, sensors, stick)
-
-    def counted(self, changes: list[float]) -> list[float]:
-        """The altitude against the path."""
-        first, *others = changes
-        return [first - self.ahead if 0 in self.sizes else first, *others]
-
-    def state(self) -> dict[str, Any]:
-        """With the climb rate of the path."""
-        return super().state() | {"climb": self.climb}
-
-    def restore(self, state: Mapping[str, Any]) -> None:
-        """Go on from what `state` gave."""
-        super().restore(state)
-        self.climb = state["climb"]

@@ -10,18 +10,19 @@ from __future__ import annotations
 
 import copy
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
+from .._core import ControlChain
 from ..errors import InputError, NumericalFailure, WakeflightError, one_line
 from ..sticks import INCH, STICKS, Added, Ramp, StickPath
 from . import gains
 from .augmentation import Augmentation
 from .controller import Controller, inches
 from .sensors import Sensors
-from .servos import PITCH, Moving
+from .servos import PITCH, mounted
 from .start import Start
 from .state import packed, unpacked
 
@@ -45,8 +46,8 @@ class Member:
         self.called = self.controller.check()
         declared = self.controller.outputs
         self.outputs = (declared,) if isinstance(declared, str) else tuple(declared)
+        self.feedback = self.controller.feedback()
         self.count = 0
-        self.answer = [0.0] * 4
 
     def due(self, t: float, begins: bool) -> bool:
         """Whether it is asked at `t`; begins: a coupling step begins there."""
@@ -60,25 +61,40 @@ class Member:
         last = math.ceil((t1 - SAME) * self.called)
         return [k / self.called for k in range(first, last)]
 
-    def ask(self, t: float, sensors: Sensors, stick: dict[str, float]) -> None:
-        """Its answer at `t`; whatever is wrong with it ends the flight there."""
+    def asked(self, t: float) -> None:
+        """It is asked at `t`."""
         if self.called is not None:
             self.count = math.floor((t + SAME) * self.called) + 1
+
+    def answer(self, t: float, sensors: Sensors, stick: dict[str, float]) -> tuple[list[float], list[bool]]:
+        """Inches (4,) at `t`, and on which sticks limits of its own held it; whatever is wrong with it ends the flight there."""
         try:
-            self.answer = inches(self.controller.step(t, sensors, stick), self.outputs)
+            found = inches(self.controller.step(t, sensors, stick), self.outputs)
+            saturated = self.controller.saturated
         except Exception as reason:
             what = str(reason) if isinstance(reason, WakeflightError) else _said(reason)
-            text = f"controller {self.controller.name} at t = {t:.4f} s: {one_line(what)}"
-            raise NumericalFailure(text) from reason
+            raise self.failure(t, one_line(what)) from reason
+        return found, [name in saturated for name in STICKS]
+
+    def failure(self, t: float, what: str) -> NumericalFailure:
+        """What is wrong with it."""
+        return NumericalFailure(f"controller {self.controller.name} at t = {t:.4f} s: {what}")
+
+    @property
+    def acts(self) -> str:
+        """How the core counts it."""
+        if self.controller.acts == "parallel":
+            return "parallel"
+        return "own" if self.controller.own_authority else "series"
 
     def memory(self) -> dict[str, Any]:
         """What it depends on."""
-        return {"state": self.controller.state(), "count": self.count, "answer": self.answer}
+        return {"state": self.controller.state(), "count": self.count}
 
     def recall(self, memory: dict[str, Any]) -> None:
         """Go on from what `memory` gave."""
         self.controller.restore(memory["state"])
-        self.count, self.answer = memory["count"], memory["answer"]
+        self.count = memory["count"]
 
 
 class Chain:
@@ -86,28 +102,31 @@ class Chain:
 
     def __init__(self, made: Augmentation, start: Start):
         self.members = [Member(each, start) for each in made.controllers]
-        self.scale = list(made.scale)
-        self.travel = list(start.aircraft.stick_travel_in)
-        own = [travel / scale for travel, scale in zip(self.travel, self.scale, strict=True)]
-        self.limit = gains.authority("control.authority", made.authority, own).tolist()
+        self._rated = [member for member in self.members if member.called is not None]
+        self._measured = any(member.feedback.measures for member in self.members if member.feedback is not None)
+        travel = list(start.aircraft.stick_travel_in)
+        own = [full / scale for full, scale in zip(travel, made.scale, strict=True)]
+        limit = gains.authority("control.authority", made.authority, own)
         self.trim = start.stick_si
         self.trimmed = self.trim.tolist()
-        rigging = start.model.data["rigging"]
-        self.servos = None
+        servos = None
         if made.actuators is not None:
+            rigging = start.model.data["rigging"]
             offset, matrix = np.asarray(rigging["offset"]), np.asarray(rigging["matrix"])
-            self.servos = Moving(made.actuators, offset, matrix, self.trim)  # type: ignore[arg-type]
-        self.series, self.parallel = [0.0] * 4, [0.0] * 4
-        self.hands = self.pilot = self.reached = self.trim
-        self.seconds = {"sas_saturated": [0.0] * 4}
-        if self.servos is not None:
-            self.seconds |= {"actuator_rate_limited": [0.0] * 4, "actuator_at_stop": [0.0] * 4}
+            servos = mounted(made.actuators, offset, matrix, self.trim)  # type: ignore[arg-type]
+        self.has_servos = servos is not None
+        members = [(member.feedback, member.acts) for member in self.members]
+        self.core = ControlChain(members, (limit, made.scale, travel), servos, self.trim)
+        self.hands = self.pilot = self.trim
 
     def pieces(self, sticks: StickPath, t0: float, t1: float) -> list[tuple[float, float]]:
         """The interval t0..t1 cut where a stick has a corner and where a controller is asked."""
+        whole = sticks.pieces(t0, t1)
+        if not self._rated:
+            return whole
         found: list[tuple[float, float]] = []
-        for a, b in sticks.pieces(t0, t1):
-            times = sorted({time for member in self.members for time in member.times(a, b)})
+        for a, b in whole:
+            times = sorted({time for member in self._rated for time in member.times(a, b)})
             inner = [time for k, time in enumerate(times) if k == 0 or time > times[k - 1] + SAME]
             ends = [a, *inner, b]
             found += zip(ends[:-1], ends[1:], strict=True)
@@ -116,74 +135,51 @@ class Chain:
     def path(self, sticks: StickPath, piece: tuple[float, float], begins: bool, sense: Sense) -> StickPath:
         """Sticks that reach the blades over `piece`; begins: a coupling step begins with it. sense: what controllers may know."""
         t0, t1 = piece
-        due = [member for member in self.members if member.due(t0, begins)]
-        hands = sticks.at(t0)
+        hands, self.hands = sticks.at(t0), sticks.at(t1)
+        due = [k for k, member in enumerate(self.members) if member.due(t0, begins)]
         if due:
-            about_trim = zip(STICKS, hands.tolist(), self.trimmed, strict=True)
-            stick, sensors = {name: (at - rest) / INCH for name, at, rest in about_trim}, sense()
-            for member in due:
-                member.ask(t0, sensors, stick)
-        self._count("sas_saturated", self._sum(hands), t1 - t0)
-        offset = np.array([INCH * (moved + added) for moved, added in zip(self.parallel, self.series, strict=True)])
-        self.pilot, self.hands = self._moved(hands), sticks.at(t1)
-        if self.servos is None:
-            self.reached = self.hands + offset
-            return Added(sticks, offset, {t0: hands + offset, t1: self.reached})
-        before = self.reached
-        self.reached, limited, stopped = self.servos.advance(hands + offset, self.hands + offset, t1 - t0)
-        self._count("actuator_rate_limited", limited, t1 - t0)
-        self._count("actuator_at_stop", stopped, t1 - t0)
-        return Ramp(t0, t1, before, self.reached)
+            self._ask(t0, due, hands, sense())
+        self.pilot, before, after = self.core.advance(hands, self.hands, t1 - t0)
+        if self.has_servos:
+            return Ramp(t0, t1, before, after)
+        return Added(sticks, self.core.offset, {t0: before, t1: after})
+
+    def _ask(self, t: float, due: list[int], hands: np.ndarray, sensors: Sensors) -> None:
+        """All that are due at `t`: blocks in the core, the others one by one."""
+        stick: dict[str, float] = {}
+        for k in due:
+            member = self.members[k]
+            member.asked(t)
+            if member.feedback is None:
+                if not stick:
+                    about_trim = zip(STICKS, hands.tolist(), self.trimmed, strict=True)
+                    stick = {name: (at - rest) / INCH for name, at, rest in about_trim}
+                self.core.answered(k, *member.answer(t, sensors, stick))
+        failed = self.core.ask(t, due, sensors, sensors.ay if self._measured else 0.0)
+        if failed is not None:
+            raise self.members[failed].failure(t, "its answer is not finite")
 
     def rest(self, sticks: StickPath, t: float) -> StickPath:
         """Sticks that reach the blades at `t`, where the flight ends."""
-        self.pilot = self._moved(sticks.at(t))
-        if self.servos is None:
-            return Added(sticks, INCH * (np.array(self.parallel) + np.array(self.series)))
+        self.pilot = sticks.at(t) + INCH * self.core.parallel
+        if not self.has_servos:
+            return Added(sticks, self.core.offset)
         return Ramp(t, t + 1.0, self.reached, self.reached)
 
-    def _moved(self, hands: np.ndarray) -> np.ndarray:
-        """Sticks (4,) [m] where the hands have them, as the parallel actuators move them."""
-        moved: np.ndarray = hands + INCH * np.array(self.parallel) if any(self.parallel) else hands
-        return moved
+    @property
+    def series(self) -> np.ndarray:
+        """Inches added in series (4,)."""
+        return self.core.series
 
-    def _count(self, name: str, held: Sequence[float], seconds: float) -> None:
-        """Seconds more for those that a limit held."""
-        if any(held):
-            spent = self.seconds[name]
-            self.seconds[name] = [before + seconds * each for before, each in zip(spent, held, strict=True)]
-
-    def _sum(self, hands: np.ndarray) -> list[float]:
-        """Inches of all in their order, kept in `parallel` and `series`; on which sticks a limit held them (4,)."""
-        # plain numbers: arrays of four would take three times as long, at every step
-        shared, own, parallel = [0.0] * 4, [0.0] * 4, [0.0] * 4
-        held = [0.0] * 4
-        for member in self.members:
-            controller = member.controller
-            series = own if controller.own_authority else shared
-            total = parallel if controller.acts == "parallel" else series
-            for k, inches_of in enumerate(member.answer):
-                total[k] += inches_of
-            for name in controller.saturated:
-                held[STICKS.index(name)] = 1.0
-        for k, (limit, scale) in enumerate(zip(self.limit, self.scale, strict=True)):
-            within = min(limit, max(-limit, shared[k]))
-            if within != shared[k]:
-                held[k] = 1.0
-            self.series[k] = scale * (within + own[k])
-        # a parallel actuator takes the stick no further than its stops; where the hands have it already beyond, no further
-        if any(parallel):
-            for k, at in enumerate((hands / INCH).tolist()):
-                if parallel[k] != 0.0:
-                    low, high = min(at, 0.0), max(at, self.travel[k])
-                    parallel[k] = min(high, max(low, at + self.scale[k] * parallel[k])) - at
-        self.parallel = parallel
-        return held
+    @property
+    def reached(self) -> np.ndarray:
+        """Sticks that stand for where the blades have been put (4,) [m]."""
+        return self.core.reached
 
     def memory(self) -> bytes:
         """Everything that what comes depends on; refuses a controller that holds what cannot be kept."""
-        kept = {name: getattr(self, name) for name in ("series", "parallel", "hands", "pilot", "reached", "seconds")}
-        kept["servos"] = None if self.servos is None else self.servos.at
+        kept: dict[str, Any] = {"hands": self.hands, "pilot": self.pilot}
+        kept["chain"] = np.frombuffer(self.core.memory(), np.uint8)
         for k, member in enumerate(self.members):
             kept[f"member {k}"] = member.memory()
         try:
@@ -196,20 +192,17 @@ class Chain:
     def recall(self, block: bytes) -> None:
         """Go on from what `memory` gave."""
         kept = unpacked(block)
-        self.series, self.parallel, self.seconds = list(kept["series"]), list(kept["parallel"]), kept["seconds"]
-        self.hands, self.pilot, self.reached = kept["hands"], kept["pilot"], kept["reached"]
-        if self.servos is not None:
-            self.servos.at = kept["servos"]
+        self.hands, self.pilot = kept["hands"], kept["pilot"]
+        self.core.recall(bytes(kept["chain"]))
         for k, member in enumerate(self.members):
             member.recall(kept[f"member {k}"])
 
     def counted(self) -> dict[str, dict[str, float]]:
         """Seconds that limits held the chain, by stick or blade pitch."""
-        names = {"sas_saturated": STICKS}
-        return {
-            name: {each: float(x) for each, x in zip(names.get(name, PITCH), values, strict=True)}
-            for name, values in self.seconds.items()
-        }
+        names = {"sas_saturated": STICKS, "actuator_rate_limited": PITCH, "actuator_at_stop": PITCH}
+        told = zip(names.items(), self.core.seconds, strict=True)
+        found = {name: dict(zip(each, seconds, strict=True)) for (name, each), seconds in told}
+        return found if self.has_servos else {"sas_saturated": found["sas_saturated"]}
 
 
 def _said(reason: Exception) -> str:

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from .._core import Feedback
 from ..errors import InputError
 from ..sticks import STICKS
 from ..units import quantity
@@ -70,6 +71,10 @@ class Controller:
         """Go on from what `state` gave."""
         vars(self).clear()
         vars(self).update(state)
+
+    def feedback(self) -> Feedback | None:
+        """What it is to the core, which then answers in its place; None: `step` is asked."""
+        return None
 
     def described(self) -> dict[str, Any]:
         """What it is, for results and snapshots: its class and what it was made with."""

@@ -19,13 +19,15 @@ from ..arguments import checked
 from ..errors import InputError
 from ..sticks import STICKS
 from ..units import STANDARD_GRAVITY, number, quantity
-from .blocks import SLOWEST_TURN
 from .controller import Controller
 from .sensors import Sensors
 from .start import Start
 
 ASKED = {"bank": "rad", "load_factor": "", "speed": "m/s", "climb_rate": "m/s"}
 """What a path may hold, and its SI unit."""
+
+SLOWEST_TURN = 10.0
+"""Airspeed [m/s] below which the rate of a coordinated turn, g tan(bank)/V, is taken as there: it grows without bound."""
 
 History = Sequence[tuple[str, Any]]
 

@@ -6,9 +6,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from .._core import limited_lag
 from ..errors import InputError
 from .controller import Controller
-from .filters import limited_lag
 from .sensors import Sensors
 from .start import Start
 

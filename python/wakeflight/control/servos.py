@@ -11,7 +11,6 @@ import numpy as np
 
 from ..errors import InputError
 from ..units import quantity
-from .filters import limited_lag
 
 PITCH = ("theta_1c", "theta_1s", "theta_0", "theta_tr")
 """What the servos move, in the order of the rigging's rows."""
@@ -96,36 +95,14 @@ def servos(given: Any) -> Servos | None:
     return found
 
 
-class Moving:
-    """Servos in a flight: where they are, and how often they met a limit.
+Mounted = tuple[float, float, list[tuple[float, float]], np.ndarray, np.ndarray, np.ndarray, np.ndarray]
+"""Servos of an aircraft as the core takes them."""
 
-    The core takes sticks: where servos stand is told it as the sticks that would put them there.
-    """
 
-    def __init__(self, servos: Servos, offset: np.ndarray, matrix: np.ndarray, stick: np.ndarray):
-        """offset [rad], matrix [rad/m] of the rigging; stick (4,) [m from the stop]: where all is at rest."""
-        if abs(np.linalg.det(matrix / np.abs(matrix).max())) < 1e-9:
-            raise InputError.of("actuators", "servos", "need a rigging whose matrix can be inverted")
-        self.tau, self.rate = servos.time_constant, servos.fastest
-        low, high = servos.stops
-        self.stops = list(zip(low.tolist(), high.tolist(), strict=True))
-        self.offset, self.matrix, self.back = offset, matrix, np.linalg.inv(matrix)
-        self.at = offset + matrix @ stick
-
-    def advance(self, stick0: np.ndarray, stick1: np.ndarray, dt: float) -> tuple[np.ndarray, list[bool], list[bool]]:
-        """While the commanded sticks [m] go from one place to another: sticks that stand for them; who met rate, stop."""
-        u0, u1 = self.offset + self.matrix @ stick0, self.offset + self.matrix @ stick1
-        moved = [
-            limited_lag(*each, dt, self.tau, self.rate)
-            for each in zip(self.at.tolist(), u0.tolist(), u1.tolist(), strict=True)
-        ]
-        free = [x for x, _ in moved]
-        at = [min(high, max(low, x)) for x, (low, high) in zip(free, self.stops, strict=True)]
-        self.at = np.array(at)
-        return self.stick, [limited for _, limited in moved], [x != y for x, y in zip(at, free, strict=True)]
-
-    @property
-    def stick(self) -> np.ndarray:
-        """Sticks (4,) [m] that stand for where the servos are."""
-        found: np.ndarray = self.back @ (self.at - self.offset)
-        return found
+def mounted(servos: Servos, offset: np.ndarray, matrix: np.ndarray, stick: np.ndarray) -> Mounted:
+    """Lag, rate, stops, rigging and its inverse, where they are: offset [rad], matrix [rad/m]; stick (4,) [m]: all at rest."""
+    if abs(np.linalg.det(matrix / np.abs(matrix).max())) < 1e-9:
+        raise InputError.of("actuators", "servos", "need a rigging whose matrix can be inverted")
+    low, high = servos.stops
+    stops = list(zip(low.tolist(), high.tolist(), strict=True))
+    return servos.time_constant, servos.fastest, stops, offset, matrix, np.linalg.inv(matrix), offset + matrix @ stick

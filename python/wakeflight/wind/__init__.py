@@ -6,11 +6,12 @@ with the velocity of the air there (n, 3) [m/s]. It depends on points and time a
 same air; the aircraft flies through it, and blades meet what is where they are.
 """
 
+from .._core import Air
 from .field import WindField
 from .gust import Gust
 from .kinds import SteadyWind, Wind, Winds
 from .made import wind_from_text, wind_of, wind_of_table
-from .surroundings import Air, Surroundings, passing
+from .surroundings import Surroundings, passing
 from .turbulence import Dryden, VonKarman
 
 __all__ = [

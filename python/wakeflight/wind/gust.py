@@ -10,6 +10,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from .. import _core
 from ..arguments import with_checked_init
 from ..errors import InputError
 from ..units import quantity
@@ -64,11 +65,8 @@ class Gust(Told):
         angle = quantity(self.direction, "rad", "gust direction")
         return size * np.array([math.cos(angle), math.sin(angle), 0.0])
 
-    def __call__(self, points: np.ndarray, t: float) -> np.ndarray:
-        """At points (n, 3)."""
+    @cached_property
+    def closed(self) -> _core.Wind:
+        """The gust as the core evaluates it."""
         along, ahead, length = self._place
-        within = (np.asarray(points) @ along - ahead) / length
-        top = 1.0 if self.shape == "1-cosine" else 0.5
-        share: np.ndarray = 0.5 * (1.0 - np.cos(2.0 * np.pi * np.clip(within, 0.0, top)))
-        blown: np.ndarray = share[:, None] * self.velocity
-        return blown
+        return _core.Wind.gust(along, ahead, length, self.shape == "1-cosine", self.velocity)

@@ -11,6 +11,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from .. import _core
 from ..arguments import with_checked_init
 from ..errors import InputError
 from ..units import quantity
@@ -37,9 +38,18 @@ class Wind:
         """Its velocity (3,) [m/s] where it is the same at all points and at all times; None where it is not."""
         return None
 
+    @property
+    def closed(self) -> _core.Wind | None:
+        """The wind as the core evaluates it; None where it does not know its form, and asks by points."""
+        return None
+
     def __call__(self, points: np.ndarray, t: float) -> np.ndarray:
         """Velocity of the air (n, 3) [m/s] at `points` (n, 3) [m] and time `t` [s], north, east, down."""
         raise NotImplementedError(f"{type(self).__name__} must define __call__(points, t)")
+
+    def __getstate__(self) -> dict[str, Any]:
+        """All but what the core makes of it, which is made anew."""
+        return {name: value for name, value in vars(self).items() if name != "closed"}
 
     def drift(self) -> np.ndarray:
         """Velocity (3,) [m/s] at which it carries what is carried."""
@@ -51,7 +61,16 @@ class Wind:
 
 
 class Told(Wind):
-    """A wind whose fields are all that it was made with."""
+    """A wind in closed form, whose fields are all that it was made with."""
+
+    @property
+    def closed(self) -> _core.Wind:
+        """The wind as the core evaluates it."""
+        raise NotImplementedError
+
+    def __call__(self, points: np.ndarray, t: float) -> np.ndarray:
+        """At points (n, 3)."""
+        return self.closed.at(np.asarray(points, dtype=float), t)
 
     def described(self) -> dict[str, Any]:
         """Kind and fields."""
@@ -100,9 +119,10 @@ class SteadyWind(Told):
         """It carries what is carried."""
         return self.velocity
 
-    def __call__(self, points: np.ndarray, t: float) -> np.ndarray:
+    @cached_property
+    def closed(self) -> _core.Wind:
         """The same at every point."""
-        return np.broadcast_to(self.velocity, np.shape(points))
+        return _core.Wind.steady(self.velocity)
 
 
 class OwnWind(Wind):
@@ -143,6 +163,13 @@ class Winds(Wind):
         """The sum where all are."""
         return self._drift if all(part.constant is not None for part in self.parts) else None
 
+    @cached_property
+    def closed(self) -> _core.Wind | None:
+        """The sum where all parts are in closed form."""
+        parts = [part.closed for part in self.parts]
+        known = [part for part in parts if part is not None]
+        return _core.Wind.sum(known) if len(known) == len(parts) else None
+
     def drift(self) -> np.ndarray:
         """That of its parts."""
         drift: np.ndarray = self._drift
@@ -150,6 +177,8 @@ class Winds(Wind):
 
     def __call__(self, points: np.ndarray, t: float) -> np.ndarray:
         """The sum."""
+        if self.closed is not None:
+            return self.closed.at(np.asarray(points, dtype=float), t)
         moved, whole = points - self._drift * t, np.zeros(np.shape(points))
         for part in self.parts:
             whole += part(moved if part.carried else points, t)

@@ -101,9 +101,10 @@ class Turbulence(Told):
                     phases.append(chance.uniform(0.0, 2.0 * math.pi))
         return np.array(waves), np.array(sizes), np.array(phases)
 
-    def __call__(self, points: np.ndarray, t: float) -> np.ndarray:
-        """At points (n, 3)."""
-        return _core.fourier_velocity(np.asarray(points, dtype=float), *self.modes)
+    @cached_property
+    def closed(self) -> _core.Wind:
+        """The turbulence as the core evaluates it."""
+        return _core.Wind.waves(*self.modes)
 
 
 @with_checked_init

@@ -110,8 +110,7 @@ pub struct FixedStep {
     y_dot: Vec<f64>,
     /// Whether rate and mass matrix belong to the present state.
     prepared: bool,
-    /// When dF/dy was found [s].
-    linearised_at: Option<f64>,
+    /// Where dF/dy was found.
     origin: Option<Origin>,
     linear: Linearised,
     real: Factor<f64>,
@@ -146,7 +145,6 @@ impl FixedStep {
             y: y.to_vec(),
             y_dot: vec![0.0; n],
             prepared: false,
-            linearised_at: None,
             origin: None,
             real: Factor::new(&linear.slopes),
             complex: Factor::new(&linear.slopes),
@@ -200,7 +198,6 @@ impl FixedStep {
 
     /// Goes on from `memory`, of the same system: dF/dy is found again where it was found, to the same bits.
     pub fn recall(&mut self, system: &System, memory: FixedMemory) {
-        self.linearised_at = memory.origin.as_ref().map(|o| o.t);
         if let Some(o) = &memory.origin {
             self.linear.renew(system, &Instant { t: o.t, y: &o.y, y_dot: &o.y_dot, inputs: &o.inputs }, true);
         }
@@ -211,18 +208,26 @@ impl FixedStep {
 
     /// Finds the rate that satisfies F = 0 with `inputs` from now on, and linearises where dF/dy is too old.
     pub fn prepare(&mut self, system: &System, inputs: &Inputs) -> Result<(), StepFailure> {
-        // a hair more, so that two steps of ten degrees count as twenty
-        let kept = (1.0 + 1e-6) * self.kept;
-        let rotor = system.main();
-        let renew = self.linearised_at.is_none_or(|t| rotor.turned(self.t) - rotor.turned(t) > kept);
+        let renew = self.origin.as_ref().is_none_or(|origin| self.outlived(system, origin));
         self.find_rate(system, inputs, renew)
+    }
+
+    /// Whether the rotor has turned by more than dF/dy is kept since it was found.
+    fn outlived(&self, system: &System, origin: &Origin) -> bool {
+        let (rotor, azimuth) = (system.main(), |t, y: &[f64]| system.azimuth(0, t, y, 0));
+        // a hair more, so that two steps of ten degrees count as twenty; those of a free rotor miss them by what it gathers speed
+        let (turned, hair) = if rotor.speed.is_state() {
+            (azimuth(self.t, &self.y) - azimuth(origin.t, &origin.y), 1e-3)
+        } else {
+            (rotor.turned(self.t) - rotor.turned(origin.t), 1e-6)
+        };
+        turned > (1.0 + hair) * self.kept
     }
 
     /// The rate at the present state, with dF/dy there (`renew`) or as it was.
     fn find_rate(&mut self, system: &System, inputs: &Inputs, renew: bool) -> Result<(), StepFailure> {
         let (t, y, y_dot) = (self.t, &self.y, &mut self.y_dot);
         if renew {
-            self.linearised_at = Some(t);
             self.origin = Some(Origin { t, y: y.clone(), y_dot: y_dot.clone(), inputs: inputs.clone() });
             self.counters.jacobians += 1;
         }
@@ -262,7 +267,7 @@ impl FixedStep {
         match self.attempt(system, t1, inputs) {
             Ok(()) => Ok(()),
             // first with the derivatives of this state, then with shorter steps
-            Err(_) if self.linearised_at != Some(self.t) => {
+            Err(_) if self.origin.as_ref().map(|o| o.t) != Some(self.t) => {
                 self.find_rate(system, inputs, true)?;
                 self.step(system, t1, inputs, halvings)
             }

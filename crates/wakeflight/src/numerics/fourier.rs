@@ -1,134 +1,260 @@
 //! Fields of Fourier modes: sums of a_m cos(k_m.x + f_m) over many modes at many points.
 //!
-//! Points go four side by side, each with the bits it has alone. The cosine is counted in turns, whose whole part is dropped
-//! exactly: cos(2 pi t) = 1 - 2 sin(pi f)^2 with f the distance of t from the nearest whole number.
+//! Modes of one wave vector are one wave, a cos(k.x) + b sin(k.x). Waves go side by side in blocks, so that a point has the bits it has
+//! alone. Angles are counted in turns, whose nearest quarter is dropped exactly. Along a straight line through p,
+//! k.(p + r e) = k.p + r k.e: waves are turned to p once, and places as far to either side of it share sine and cosine.
 
-use super::four::{Four, FourTask, four_at_once};
-use super::scalar::Real;
+use super::compiled::{Loops, compiled};
 
-/// Added and taken off again, rounds what is below 2^51 to a whole number.
+/// Waves of a block: enough series side by side that none waits for its last product.
+const WAVES: usize = 16;
+
+/// A number of each wave of a block.
+type Block = [f64; WAVES];
+
+/// Added and taken off again, rounds what is below 2^51 to a whole number, which the last bits of the sum then hold.
 const ROUNDING: f64 = 6_755_399_441_055_744.0;
 
-/// Coefficients of sin(pi f)/f in powers of f^2: (-1)^n pi^(2n+1)/(2n+1)!.
-const SINE: [f64; 11] = {
-    let mut all = [std::f64::consts::PI; 11];
+/// Coefficients of sin(q pi/2)/q and of cos(q pi/2) in powers of q^2.
+const SINE: [f64; 8] = series(1);
+const COSINE: [f64; 9] = series(0);
+
+const fn series<const N: usize>(first: usize) -> [f64; N] {
+    let quarter = std::f64::consts::FRAC_PI_2;
+    let mut all = [if first == 1 { quarter } else { 1.0 }; N];
     let mut n = 1;
-    while n < 11 {
-        let (even, odd) = (2.0 * n as f64, 2.0 * n as f64 + 1.0);
-        all[n] = -all[n - 1] * (std::f64::consts::PI * std::f64::consts::PI) / (even * odd);
+    while n < N {
+        let order = (2 * n + first) as f64;
+        all[n] = -all[n - 1] * (quarter * quarter) / (order * (order - 1.0));
         n += 1;
     }
     all
-};
+}
 
-/// A mode: wave vector in turns [1/m], phase in turns, amplitude [m/s].
-#[derive(Clone, Copy, Debug)]
-struct Mode {
-    wave: [f64; 3],
-    phase: f64,
-    size: [f64; 3],
+/// Sine and cosine of angles in turns.
+#[inline(always)]
+fn sin_cos(turns: &Block) -> (Block, Block) {
+    let (mut sines, mut cosines) = ([0.0; WAVES], [0.0; WAVES]);
+    for k in 0..WAVES {
+        let quarters = 4.0 * turns[k];
+        let sum = quarters + ROUNDING;
+        let q = quarters - (sum - ROUNDING);
+        let squared = q * q;
+        let (mut sine, mut cosine) = (SINE[7], COSINE[8]);
+        for n in (0..7).rev() {
+            sine = sine * squared + SINE[n];
+        }
+        for n in (0..8).rev() {
+            cosine = cosine * squared + COSINE[n];
+        }
+        let (s, c) = ((sine * q).to_bits(), cosine.to_bits());
+        // an odd quarter swaps the two; the second and third turn the sine, the first and second the cosine
+        let quarter = sum.to_bits();
+        let swapped = (s ^ c) & 0u64.wrapping_sub(quarter & 1);
+        sines[k] = f64::from_bits((s ^ swapped) ^ ((quarter & 2) << 62));
+        cosines[k] = f64::from_bits((c ^ swapped) ^ ((quarter.wrapping_add(1) & 2) << 62));
+    }
+    (sines, cosines)
+}
+
+/// Sums over the waves of each of three components.
+type Sums = [Block; 3];
+
+/// Waves side by side: vectors in turns [1/m], velocities of cosine and sine [m/s].
+#[derive(Clone, Debug, Default)]
+struct Waves {
+    vector: [Block; 3],
+    cosine: Sums,
+    sine: Sums,
+}
+
+impl Waves {
+    /// Turns by which they advance along `v`.
+    #[inline(always)]
+    fn along(&self, v: &[f64; 3]) -> Block {
+        let [x, y, z] = &self.vector;
+        std::array::from_fn(|k| x[k] * v[0] + y[k] * v[1] + z[k] * v[2])
+    }
 }
 
 /// Velocities that are sums of modes.
 #[derive(Clone, Debug)]
 pub struct FourierField {
-    modes: Vec<Mode>,
+    blocks: Vec<Waves>,
 }
 
 impl FourierField {
     /// Of wave vectors [rad/m], amplitudes and phases [rad], mode by mode.
     pub fn new(waves: &[[f64; 3]], sizes: &[[f64; 3]], phases: &[f64]) -> Self {
-        let turns = |radians: f64| radians / std::f64::consts::TAU;
-        let modes = waves.iter().zip(sizes).zip(phases);
-        let mode = |((wave, &size), &phase): ((&[f64; 3], &[f64; 3]), &f64)| Mode {
-            wave: wave.map(turns),
-            phase: turns(phase),
-            size,
-        };
-        Self { modes: modes.map(mode).collect() }
+        let (mut blocks, mut last, mut n): (Vec<Waves>, Option<[f64; 3]>, usize) = (Vec::new(), None, 0);
+        for ((wave, size), phase) in waves.iter().zip(sizes).zip(phases) {
+            if last != Some(*wave) {
+                last = Some(*wave);
+                if n.is_multiple_of(WAVES) {
+                    blocks.push(Waves::default());
+                }
+                n += 1;
+            }
+            let (k, (sine, cosine)) = ((n - 1) % WAVES, phase.sin_cos());
+            if let Some(block) = blocks.last_mut() {
+                for i in 0..3 {
+                    block.vector[i][k] = wave[i] / std::f64::consts::TAU;
+                    block.cosine[i][k] += size[i] * cosine;
+                    block.sine[i][k] -= size[i] * sine;
+                }
+            }
+        }
+        Self { blocks }
     }
 
     /// At points, into `found`, one after the other.
     pub fn at(&self, points: &[[f64; 3]], found: &mut [[f64; 3]]) {
-        for (points, found) in points.chunks(4).zip(found.chunks_mut(4)) {
-            // fewer than four left: the last stands in for those that are not there
-            let four = std::array::from_fn(|k| points[k.min(points.len() - 1)]);
-            let task = Sum { field: self, points: four };
-            let values = four_at_once(task)
-                .unwrap_or_else(|task| std::array::from_fn(|k| sum(&self.modes, task.points[k])));
-            found.copy_from_slice(&values[..points.len()]);
-        }
+        compiled(AtPoints { field: self, points, found });
+    }
+
+    /// On a line through `middle` along the unit vector `along`: at the distances `reach` [m] ahead of it and behind it.
+    pub fn on_line(
+        &self,
+        (middle, along): (&[f64; 3], &[f64; 3]),
+        reach: &[f64],
+        ahead: &mut [[f64; 3]],
+        behind: &mut [[f64; 3]],
+    ) {
+        compiled(OnLine { field: self, middle, along, reach, ahead, behind });
     }
 }
 
-/// The sum at four points.
-struct Sum<'a> {
+struct AtPoints<'a> {
     field: &'a FourierField,
-    points: [[f64; 3]; 4],
+    points: &'a [[f64; 3]],
+    found: &'a mut [[f64; 3]],
 }
 
-impl FourTask for Sum<'_> {
-    type Output = [[f64; 3]; 4];
+impl Loops for AtPoints<'_> {
+    type Output = ();
     #[inline(always)]
-    fn run<S: Four>(self) -> Self::Output {
-        let p = &self.points;
-        let side = [
-            S::of([p[0][0], p[1][0], p[2][0], p[3][0]]),
-            S::of([p[0][1], p[1][1], p[2][1], p[3][1]]),
-            S::of([p[0][2], p[1][2], p[2][2], p[3][2]]),
-        ];
-        let [x, y, z] = sum(&self.field.modes, side);
-        let (x, y, z) = (x.values(), y.values(), z.values());
-        [[x[0], y[0], z[0]], [x[1], y[1], z[1]], [x[2], y[2], z[2]], [x[3], y[3], z[3]]]
+    fn run(self) {
+        for (point, found) in self.points.iter().zip(self.found) {
+            let mut sums: Sums = [[0.0; WAVES]; 3];
+            for waves in &self.field.blocks {
+                let (sine, cosine) = sin_cos(&waves.along(point));
+                for i in 0..3 {
+                    for k in 0..WAVES {
+                        sums[i][k] += waves.cosine[i][k] * cosine[k] + waves.sine[i][k] * sine[k];
+                    }
+                }
+            }
+            *found = sums.map(total);
+        }
     }
 }
 
-#[inline(always)]
-fn sum<S: Real>(modes: &[Mode], [x, y, z]: [S; 3]) -> [S; 3] {
-    let (mut u, mut v, mut w) = (S::zero(), S::zero(), S::zero());
-    for mode in modes {
-        let turns = x * mode.wave[0] + y * mode.wave[1] + z * mode.wave[2] + mode.phase;
-        let whole = (turns + ROUNDING) - ROUNDING;
-        let f = turns - whole;
-        let squared = f * f;
-        let mut ratio = S::cst(SINE[10]);
-        for n in (0..10).rev() {
-            ratio = ratio * squared + SINE[n];
+struct OnLine<'a> {
+    field: &'a FourierField,
+    middle: &'a [f64; 3],
+    along: &'a [f64; 3],
+    reach: &'a [f64],
+    ahead: &'a mut [[f64; 3]],
+    behind: &'a mut [[f64; 3]],
+}
+
+impl Loops for OnLine<'_> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        // the waves as they are seen from the middle, their turns a metre in place of their vectors
+        let turned: Vec<(Block, Sums, Sums)> = self
+            .field
+            .blocks
+            .iter()
+            .map(|waves| {
+                let (s, c) = sin_cos(&waves.along(self.middle));
+                let (mut even, mut odd): (Sums, Sums) = Default::default();
+                for i in 0..3 {
+                    for k in 0..WAVES {
+                        even[i][k] = waves.cosine[i][k] * c[k] + waves.sine[i][k] * s[k];
+                        odd[i][k] = waves.sine[i][k] * c[k] - waves.cosine[i][k] * s[k];
+                    }
+                }
+                (waves.along(self.along), even, odd)
+            })
+            .collect();
+        for ((r, ahead), behind) in self.reach.iter().zip(self.ahead).zip(self.behind) {
+            let (mut same, mut other): (Sums, Sums) = Default::default();
+            for (pace, even, odd) in &turned {
+                let (sine, cosine) = sin_cos(&std::array::from_fn(|k| r * pace[k]));
+                for i in 0..3 {
+                    for k in 0..WAVES {
+                        same[i][k] += even[i][k] * cosine[k];
+                        other[i][k] += odd[i][k] * sine[k];
+                    }
+                }
+            }
+            let (same, other) = (same.map(total), other.map(total));
+            for i in 0..3 {
+                (ahead[i], behind[i]) = (same[i] + other[i], same[i] - other[i]);
+            }
         }
-        let sine = ratio * f;
-        let cosine = -(sine * sine * 2.0) + 1.0;
-        u += cosine * mode.size[0];
-        v += cosine * mode.size[1];
-        w += cosine * mode.size[2];
     }
-    [u, v, w]
+}
+
+/// Of all waves, pair by pair.
+#[inline(always)]
+fn total(mut sums: Block) -> f64 {
+    let mut half = WAVES / 2;
+    while half > 0 {
+        for k in 0..half {
+            sums[k] += sums[k + half];
+        }
+        half /= 2;
+    }
+    sums[0]
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    fn number(k: usize) -> f64 {
+        ((k * 7919 % 1000) as f64 / 500.0 - 1.0) * 6.0
+    }
+
+    fn three(k: usize) -> [f64; 3] {
+        [number(3 * k), number(3 * k + 1), number(3 * k + 2)]
+    }
+
+    /// Modes, of which two and two share a wave.
+    fn modes() -> (Vec<[f64; 3]>, Vec<[f64; 3]>, Vec<f64>) {
+        let waves = (0..61).map(|k| three(k / 2));
+        (
+            waves.collect(),
+            (0..61).map(|k| three(k + 100)).collect(),
+            (0..61).map(|k| number(k + 900)).collect(),
+        )
+    }
+
+    fn by_cosines(point: [f64; 3]) -> [f64; 3] {
+        let (waves, sizes, phases) = modes();
+        let mut sum = [0.0; 3];
+        for ((k, size), phase) in waves.iter().zip(&sizes).zip(&phases) {
+            let cosine = (k[0] * point[0] + k[1] * point[1] + k[2] * point[2] + phase).cos();
+            (0..3).for_each(|i| sum[i] += size[i] * cosine);
+        }
+        sum
+    }
+
     #[test]
     fn the_sum_is_that_of_cosines_and_each_point_has_the_bits_it_has_alone() {
-        let number = |k: usize| ((k * 7919 % 1000) as f64 / 500.0 - 1.0) * 6.0;
-        let three = |k: usize| [number(3 * k), number(3 * k + 1), number(3 * k + 2)];
-        let (waves, sizes): (Vec<_>, Vec<_>) = (0..60).map(|k| (three(k), three(k + 100))).unzip();
-        let phases: Vec<f64> = (0..60).map(|k| number(k + 900)).collect();
+        let (waves, sizes, phases) = modes();
         let points: Vec<_> = (0..7).map(|k| three(k + 333).map(|v| 100.0 * v)).collect();
         let field = FourierField::new(&waves, &sizes, &phases);
         let mut found = vec![[0.0; 3]; 7];
         field.at(&points, &mut found);
         for (point, found) in points.iter().zip(&found) {
-            let mut expected = [0.0; 3];
-            for ((k, size), phase) in waves.iter().zip(&sizes).zip(&phases) {
-                let cosine = (k[0] * point[0] + k[1] * point[1] + k[2] * point[2] + phase).cos();
-                (0..3).for_each(|i| expected[i] += size[i] * cosine);
-            }
             let mut alone = [[0.0; 3]];
             field.at(&[*point], &mut alone);
             assert_eq!(alone[0], *found);
-            assert_eq!(sum(&field.modes, *point), *found);
-            for (a, b) in expected.iter().zip(found) {
+            for (a, b) in by_cosines(*point).iter().zip(found) {
                 // angles of some thousand radians
                 assert!((a - b).abs() < 1e-9, "{a} {b}");
             }
@@ -136,15 +262,31 @@ mod tests {
     }
 
     #[test]
-    fn the_cosine_is_that_of_the_library() {
+    fn a_line_has_what_its_points_have() {
+        let (waves, sizes, phases) = modes();
+        let field = FourierField::new(&waves, &sizes, &phases);
+        let (middle, along, reach) = (three(17), [0.48, -0.6, 0.64], [0.3, 2.0, 5.5, 8.17]);
+        let (mut ahead, mut behind) = ([[0.0; 3]; 4], [[0.0; 3]; 4]);
+        field.on_line((&middle, &along), &reach, &mut ahead, &mut behind);
+        for (k, r) in reach.iter().enumerate() {
+            for (found, r) in [(ahead[k], *r), (behind[k], -r)] {
+                let point: [f64; 3] = std::array::from_fn(|i| middle[i] + r * along[i]);
+                let expected = by_cosines(point);
+                (0..3)
+                    .for_each(|i| assert!((found[i] - expected[i]).abs() < 1e-11, "{found:?} {expected:?}"));
+            }
+        }
+    }
+
+    #[test]
+    fn sine_and_cosine_are_those_of_the_library() {
         for k in 0..4000 {
-            let angle = (k as f64 - 2000.0) * 0.00731;
-            let field = FourierField::new(&[[0.0; 3]], &[[1.0, 0.0, 0.0]], &[angle]);
-            let mut found = [[0.0; 3]];
-            field.at(&[[0.0; 3]], &mut found);
-            // the angle is rounded once in turns, the cosine a few times
+            let angle = (f64::from(k) - 2000.0) * 0.00731;
+            let (sine, cosine) = sin_cos(&[angle / std::f64::consts::TAU; WAVES]);
+            // the angle is rounded once in turns, the rest a few times
             let bound = 5e-16 + f64::EPSILON * angle.abs();
-            assert!((found[0][0] - angle.cos()).abs() < bound, "{angle}: {} {}", found[0][0], angle.cos());
+            assert!((sine[3] - angle.sin()).abs() < bound, "{angle}: {} {}", sine[3], angle.sin());
+            assert!((cosine[5] - angle.cos()).abs() < bound, "{angle}: {} {}", cosine[5], angle.cos());
         }
     }
 }

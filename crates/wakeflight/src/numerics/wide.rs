@@ -13,12 +13,14 @@ use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
 /// Derivative directions carried at once.
 pub const DIRECTIONS: usize = 16;
+/// The same where there are few.
+pub const FEW: usize = DIRECTIONS / 2;
 
 /// A real number with derivatives along `DIRECTIONS` directions that can be set and read one by one.
 pub trait Directional: Real {
     /// Sets the derivative along direction `lane`.
     fn set_slope(&mut self, lane: usize, slope: f64);
-    /// Derivatives along all directions.
+    /// Derivatives along all directions, zero along those that are not carried.
     fn slopes(&self) -> [f64; DIRECTIONS];
 }
 
@@ -70,7 +72,7 @@ impl<S: Known, const K: usize> Directional for Wide<S, K> {
     }
     fn slopes(&self) -> [f64; DIRECTIONS] {
         let lanes: &[f64] = cast_slice(&self.eps);
-        std::array::from_fn(|i| lanes[i])
+        std::array::from_fn(|i| lanes.get(i).copied().unwrap_or_default())
     }
 }
 
@@ -210,12 +212,18 @@ pub fn differentiate<T: Task>(task: T) -> T::Output {
     Scalar.vectorize(In::<Scalar, DIRECTIONS, T>(task, PhantomData))
 }
 
+/// The same of a task that sets no more than `FEW` directions.
+#[cfg(not(target_arch = "x86_64"))]
+pub fn differentiate_few<T: Task>(task: T) -> T::Output {
+    Scalar.vectorize(In::<Scalar, FEW, T>(task, PhantomData))
+}
+
 #[cfg(target_arch = "x86_64")]
-pub use x86::differentiate;
+pub use x86::{differentiate, differentiate_few};
 
 #[cfg(target_arch = "x86_64")]
 mod x86 {
-    use super::{DIRECTIONS, In, InstructionSet, Known, Task};
+    use super::{DIRECTIONS, FEW, In, InstructionSet, Known, Task};
     use pulp::x86::{V3, V4};
     use pulp::{Scalar, Simd};
     use std::marker::PhantomData;
@@ -246,15 +254,25 @@ mod x86 {
 
     /// Runs `task` in the instruction set in use.
     pub fn differentiate<T: Task>(task: T) -> T::Output {
+        in_vectors::<{ DIRECTIONS / 8 }, { DIRECTIONS / 4 }, DIRECTIONS, T>(task)
+    }
+
+    /// The same of a task that sets no more than `FEW` directions.
+    pub fn differentiate_few<T: Task>(task: T) -> T::Output {
+        in_vectors::<{ FEW / 8 }, { FEW / 4 }, FEW, T>(task)
+    }
+
+    /// In so many vectors of each instruction set.
+    fn in_vectors<const WIDE: usize, const NARROW: usize, const ALONE: usize, T: Task>(task: T) -> T::Output {
         let set = InstructionSet::in_use();
         let wide = if set == InstructionSet::Avx512 { V4::try_new() } else { None };
         let narrow = if set == InstructionSet::Vector { V3::try_new() } else { None };
         if let Some(simd) = wide {
-            Simd::vectorize(simd, In::<V4, { DIRECTIONS / 8 }, T>(task, PhantomData))
+            Simd::vectorize(simd, In::<V4, WIDE, T>(task, PhantomData))
         } else if let Some(simd) = narrow {
-            Simd::vectorize(simd, In::<V3, { DIRECTIONS / 4 }, T>(task, PhantomData))
+            Simd::vectorize(simd, In::<V3, NARROW, T>(task, PhantomData))
         } else {
-            Scalar.vectorize(In::<Scalar, DIRECTIONS, T>(task, PhantomData))
+            Scalar.vectorize(In::<Scalar, ALONE, T>(task, PhantomData))
         }
     }
 }

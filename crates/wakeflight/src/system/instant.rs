@@ -8,6 +8,7 @@ use crate::blade::surroundings::BladeInflow;
 use crate::numerics::scalar::{Dual, Real};
 use crate::rotor::hub::Rotor;
 use crate::wake::AtParts;
+use crate::wind::places::Air;
 use serde::{Deserialize, Serialize};
 
 /// A number of what acts, in equations over the scalar `S`.
@@ -166,6 +167,25 @@ impl<U: Real> Inputs<U> {
     /// Whether there is no air at all.
     pub fn vacuum(&self) -> bool {
         matches!(self.inflow.first(), Some(HeldInflow::Vacuum))
+    }
+}
+
+impl Inputs {
+    /// The same in a wind, `n_stations` on a blade: what it adds to the inflow goes with the states of y, or into the rows held.
+    pub fn blown(mut self, air: &Air, n_stations: usize) -> Self {
+        let gust = air.stations.as_ref().map(|stations| {
+            let at_hub = std::array::from_fn(|i| air.at_hub[i] - air.origin[i]);
+            let stations = match self.inflow.first_mut() {
+                Some(HeldInflow::Stations { inflow, .. }) => {
+                    air.on(n_stations, inflow);
+                    Vec::new()
+                }
+                _ => stations.clone(),
+            };
+            Gust { at_hub, turn: air.turn, stations }
+        });
+        self.disturbance = Some(Disturbance { wind: air.origin, gust, speed: vec![[0.0; 2]] });
+        self
     }
 }
 

@@ -5,7 +5,7 @@ use crate::blade::MAX_MODES;
 use crate::blade::hub_loads::BladeLoads;
 use crate::blade::kinematics::ModalMotion;
 use crate::numerics::frames::Vec3;
-use crate::numerics::wide::{DIRECTIONS, Directional, Task, differentiate};
+use crate::numerics::wide::{DIRECTIONS, Directional, FEW, Task, differentiate, differentiate_few};
 use crate::rotor::hub::DamperSlopes;
 use crate::rotor::speed::{Spin, Turning};
 use crate::system::instant::{HeldInflow, Instant};
@@ -120,6 +120,19 @@ impl BladeSlopes {
         }
     }
 
+    /// Derivatives by the part `left` of an `attitude` from those by the others: the length of a quaternion turns nothing, the sum
+    /// of all by their parts is zero.
+    fn close_attitude(&mut self, attitude: &[f64], left: usize) {
+        let (m, size) = (self.n_modes(), -attitude[left]);
+        for (rows, n) in [(&mut self.by_wind, m), (&mut self.loads_by_wind, N_LOADS)] {
+            for i in 0..n {
+                let others = (0..attitude.len()).filter(|&k| k != left);
+                let sum: f64 = others.map(|k| attitude[k] * rows.at(i, k)).sum();
+                rows.set(i, left, sum / size);
+            }
+        }
+    }
+
     /// Keeps the derivatives of the modal rows and loads along `directions`; `place` finds shared states.
     fn keep(&mut self, directions: &[usize], layout: &Layout, place: &[usize], table: &LoadSlopes) {
         let (m, own) = (self.n_modes(), self.modal.start);
@@ -161,26 +174,37 @@ impl System {
             LoadSlopes { modal: [[0.0; DIRECTIONS]; MAX_MODES], loads: [[0.0; DIRECTIONS]; N_LOADS] };
         let mut loads = BladeLoads::zero();
         let r = slopes.rotor;
-        let (all, n) = directions(&self.layout, (r, b), at.inputs.disturbance.is_some());
+        let (all, n, left) = directions(&self.layout, (r, b), at);
         for directions in all[..n].chunks(DIRECTIONS) {
-            loads = differentiate(BladePass { system: self, at, r, b, directions, table: &mut table });
+            let pass = BladePass { system: self, at, r, b, directions, table: &mut table };
+            loads = if directions.len() > FEW { differentiate(pass) } else { differentiate_few(pass) };
             slopes.keep(directions, &self.layout, place, &table);
+        }
+        if let Some(left) = left {
+            slopes.close_attitude(&at.y[self.layout.attitude()], left);
         }
         loads
     }
 }
 
 /// Entries of y along which a blade is differentiated: its own coordinates and rates, the carrier's motion, the inflow, azimuth and
-/// speed, and where there is wind the attitude that turns it.
-fn directions(layout: &Layout, (r, b): (usize, usize), windy: bool) -> ([usize; MOST_DIRECTIONS], usize) {
+/// speed, and where there is wind the attitude that turns it, but for the part of it that is left to the others.
+fn directions(
+    layout: &Layout,
+    (r, b): (usize, usize),
+    at: &Instant<f64>,
+) -> ([usize; MOST_DIRECTIONS], usize, Option<usize>) {
     let l = &layout.rotors[r];
     let mut all = [0; MOST_DIRECTIONS];
     let mut n = 0;
-    let turned = if windy { layout.attitude() } else { 0..0 };
-    let shared = layout.carrier_motion().chain(l.inflow()).chain(l.spin_states()).chain(turned);
+    let turned = if at.inputs.disturbance.is_some() { layout.attitude() } else { 0..0 };
+    let first = turned.start;
+    let left = turned.clone().max_by(|&i, &j| at.y[i].abs().total_cmp(&at.y[j].abs()));
+    let shared = layout.carrier_motion().chain(l.inflow()).chain(l.spin_states());
+    let shared = shared.chain(turned.filter(|&i| Some(i) != left));
     for i in (l.modal(b).start..l.modal_rate(b).end).chain(shared) {
         all[n] = i;
         n += 1;
     }
-    (all, n)
+    (all, n, left.map(|i| i - first))
 }
