@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """Motion that all blades make in turn, harmonic by harmonic of their azimuth, as a wake remembers it.
 
-Circulation that is the same whenever a blade comes by a place is a steady vortex system there, however fast each blade goes through
+Circulation that is the same whenever a blade comes by a place trails the same vortices there, however fast each blade goes through
 it: harmonics of the blades beyond the second move the mean and the tilt of the inflow too. A wake knows the blades by their
-circulation. One mode, torsion where there is one, is given to it in all harmonics; what another does beyond the first is taken for
-the motion of that mode which gives the circulation nearest to its own, over all azimuths and stations.
+circulation. One mode, torsion where there is one, is given to it in all harmonics; what another does in turn is taken for the motion of
+that mode which gives the circulation nearest to its own, over all azimuths and stations. The first flap mode moves the blade tips,
+where the vortices begin: up to its second harmonic it is given itself.
 """
 
 from __future__ import annotations
@@ -16,18 +17,17 @@ from .names import Places
 from .sweeps import Driven, at_once
 
 GIVEN = 2
-"""Harmonic up to which the first flap mode is given itself: it moves the blade tips, where the vortices begin."""
+"""Harmonic up to which the first flap mode is given itself."""
 
 
 def carriers(where: Places) -> tuple[int, int]:
     """The modes that are given to the wake in turn: the one that stands for others, and the first flap mode."""
-    first = {kind: next((i for i, label in enumerate(where.labels) if label.startswith(kind)), None) for kind in KINDS}
-    flap = first["flap"] or 0
-    torsion = first["torsion"]
-    return (flap if torsion is None else torsion), flap
 
+    def first(kind: str, otherwise: int) -> int:
+        return next((i for i, label in enumerate(where.labels) if label.startswith(kind)), otherwise)
 
-KINDS = ("torsion", "flap")
+    flap = first("flap", 0)
+    return first("torsion", flap), flap
 
 
 def served(causes: list[Cause], where: Places) -> tuple[list[Cause], list[Cause]]:
@@ -49,6 +49,9 @@ def alike(
 
     once: causes that are answered at once, and the bound circulation that they answer by azimuth.
     """
+    found = np.zeros((len(pulsed), len(others)))
+    if not others:
+        return found
     carrier, _ = carriers(orbit.where)
     standing = [i for i, cause in enumerate(pulsed) if cause.of_blades and cause.index == carrier]
     weights = np.sqrt(orbit.model.area_weights)
@@ -56,7 +59,6 @@ def alike(
         np.stack([(_circulation(orbit, cause, once) * weights).ravel() for cause in causes], axis=1)
         for causes in ([pulsed[i] for i in standing], others)
     )
-    found = np.zeros((len(pulsed), len(others)))
     found[standing] = np.linalg.lstsq(basis, wanted, rcond=None)[0]
     return found
 
