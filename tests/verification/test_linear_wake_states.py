@@ -136,7 +136,9 @@ def test_what_blades_do_in_turn_is_remembered_as_the_motion_of_one_mode_with_the
 def test_pitch_after_a_lateral_step_at_120_kt_knows_what_blades_do_in_turn(fast):
     # with what blades do in turn up to the second harmonic alone: pitch 51, q 39, w 24 %
     sides = [
-        wf.fly(fast, wf.Maneuver("step", {"lateral": [(0.1, 0.0), (0.15, a), (2.0, a)]}, seconds=2.0), integrator="fixed")
+        wf.fly(
+            fast, wf.Maneuver("step", {"lateral": [(0.1, 0.0), (0.15, a), (2.0, a)]}, seconds=2.0), integrator="fixed"
+        )
         for a in (0.02, -0.02)
     ]
     model = wf.linearize(fast, wake="states")

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """Motion that all blades make in turn, harmonic by harmonic of their azimuth, as a wake remembers it.
 
-Circulation that is the same whenever a blade comes by a place trails the same vortices there, however fast each blade goes through
-it: harmonics of the blades beyond the second move the mean and the tilt of the inflow too. A wake knows the blades by their
-circulation. One mode, torsion where there is one, is given to it in all harmonics; what another does in turn is taken for the motion of
-that mode which gives the circulation nearest to its own, over all azimuths and stations. The first flap mode moves the blade tips,
-where the vortices begin: up to its second harmonic it is given itself.
+Circulation that is the same whenever a blade comes by a place trails the same vortices there, however fast each blade goes
+through it: harmonics of the blades beyond the second move the mean and the tilt of the inflow too. A wake knows the blades by
+their circulation. One mode, torsion where there is one, is given to it in all harmonics; what another does in turn is taken for
+the motion of that mode which gives the circulation nearest to its own, over all azimuths and stations. The first flap mode moves
+the blade tips, where the vortices begin: up to its second harmonic it is given itself.
 """
 
 from __future__ import annotations
@@ -42,9 +42,7 @@ def served(causes: list[Cause], where: Places) -> tuple[list[Cause], list[Cause]
     return [each for each in causes if given(each)], [each for each in causes if not given(each)]
 
 
-def alike(
-    orbit: Orbit, pulsed: list[Cause], others: list[Cause], once: tuple[list[Cause], np.ndarray]
-) -> np.ndarray:
+def alike(orbit: Orbit, pulsed: list[Cause], others: list[Cause], once: tuple[list[Cause], np.ndarray]) -> np.ndarray:
     """How much (pulsed, others) of the causes given to the wake stands for each of the others.
 
     once: causes that are answered at once, and the bound circulation that they answer by azimuth.
