@@ -48,7 +48,7 @@ def identified_wake(start: Trim, where: Places, tolerance: float) -> WakeStates:
             "wake", "identified", "needs sections without a memory of their own: unsteady = quasi-steady"
         )
     causes, quick = causes_of(where, list(range(where.n_modes)))
-    once = quick, orbit.at_once(quick)
+    once = quick, orbit.at_once(quick)[0]
     chosen = [causes[i] for i in given(causes, where)]
     shapes = following(start, orbit, causes, once)
     signals = Signals.by_chance(len(chosen), RECORD, orbit.n, orbit.omega, SEED)

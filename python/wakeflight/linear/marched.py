@@ -41,7 +41,7 @@ FORGOTTEN = 2e-4
 
 SHARE = 0.1
 """Changes to either side over those that a relaxation wake is given: sums are exact, and kinks of section tables are near."""
-HARMONICS = (("1c", 1, 0.0), ("1s", 1, -0.5 * np.pi), ("2c", 2, 0.0), ("2s", 2, -0.5 * np.pi))
+HARMONICS = tuple((f"{n}{part}", n, phase) for n in range(1, 6) for part, phase in (("c", 0.0), ("s", -0.5 * np.pi)))
 """Motion that every blade makes in turn, where multiblade coordinates do not hold it still: name, harmonic of its azimuth, phase
 [rad]."""
 
@@ -171,18 +171,21 @@ class Orbit:
         one, two = (transformation(self.n_blades, np.array([psi]), k)[0, :, cause.column] for k in (0, 1))
         return one, two
 
-    def at_once(self, causes: list[Cause]) -> np.ndarray:
-        """Answers in the step of the cause (n, n_width, causes): by azimuth, of the blade that is there."""
-        n_width = self.exchange.inflow.shape[1]
-        found, names = np.zeros((self.n, n_width, len(causes))), columns(self.n_blades)
-        exchange = self.exchange.copy()
+    def at_once(self, causes: list[Cause]) -> tuple[np.ndarray, np.ndarray]:
+        """Answers in the step of the cause by azimuth, of the blade that is there.
+
+        Inflow (n, n_width, causes) and bound circulation (n, n_stations, causes) [m2/s].
+        """
+        exchange, names = self.exchange.copy(), columns(self.n_blades)
+        n_width = exchange.inflow.shape[1]
+        found = np.zeros((self.n, n_width + exchange.circulation.shape[1], len(causes)))
 
         def answer(step: int, cause: Cause) -> np.ndarray:
             both = []
             for side in (cause.size, -cause.size):
                 beside = exchange.copy()
                 self.stepped(beside, step, cause, *((0.0, side) if cause.rate_alone else (side, 0.0)))
-                both.append(np.array(beside.inflow))
+                both.append(np.hstack([beside.inflow, beside.circulation]))
             # a passage on, a coordinate that changes its sign with every passage has changed it
             sign = -1.0 if step == self.passage and cause.kind == "blade" and names[cause.column] == "d" else 1.0
             return np.asarray(sign * (both[0] - both[1]) / (2 * cause.size))
@@ -192,7 +195,7 @@ class Orbit:
                 for i, answered in enumerate(pool.map(partial(answer, step), causes)):
                     found[self.rows(step), :, i] = answered
                 self.stepped(exchange, step, None, 0.0, 0.0)
-        return found
+        return found[:, :n_width], found[:, n_width:]
 
     def pulse(self, step: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """The pulse, at most one, and its rate [1/s], `step` steps after the beginning."""

@@ -40,6 +40,11 @@ class Realisation:
         """States for which each that is left out is below `tolerance`."""
         return int(np.sum(self.hankel > tolerance))
 
+    def driven(self, by: np.ndarray) -> Realisation:
+        """The same by causes of which each stands for so much of its inputs, `by` (inputs, causes)."""
+        a, b, c = self.matrices
+        return Realisation((a, b @ by, c), self.hankel)
+
     @classmethod
     def none(cls, inputs: int, outputs: int) -> Realisation:
         """No states: nothing is answered later."""

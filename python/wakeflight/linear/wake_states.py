@@ -17,6 +17,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..trim import Trim
+from .in_turn import alike, served
 from .marched import Cause, Orbit, causes_of
 from .multiblade import columns, transformation
 from .names import MOTION, Places
@@ -72,8 +73,13 @@ def states_of_wake(start: Trim, where: Places, tolerance: float) -> WakeStates:
     if orbit.model.remembers:
         raise InputError.of("wake", "states", "needs sections without a memory of their own: unsteady = quasi-steady")
     slow, quick = causes_of(where, list(range(where.n_modes)))
-    once = quick, orbit.at_once(quick)
-    found, misfit = _realised(orbit, slow, once, tolerance)
+    inflow, circulation = orbit.at_once(quick)
+    once = quick, inflow
+    pulsed, others = served(slow, where)
+    found, misfit = _realised(orbit, pulsed, once, tolerance)
+    # what the others do is what those do that give the same circulation
+    found = found.driven(np.hstack([np.eye(len(pulsed)), alike(orbit, pulsed, others, (quick, circulation))]))
+    slow = [*pulsed, *others]
     # how far it was from repeating itself; what the answers differ from what was fitted to them, over them
     said = {"wake_orbit": orbit.distance, "wake_misfit": misfit}
     return coupled(orbit, (slow, found), once, said)
