@@ -27,6 +27,9 @@ from .wake_states import WakeStates, states_of_wake
 
 __all__ = ["LinearModel", "Linearized", "inflow_constants", "linearize"]
 
+FINER = 4
+"""Azimuths of derivatives under a wake, over those of its inflow: sections cross kinks of their tables in between."""
+
 
 @checked
 def linearize(
@@ -81,7 +84,8 @@ def linearize(
     check_speed(rotor_speed, wake)
     tolerance = number("tolerance", tolerance, 1e-6, 0.5)
     n = _azimuths(azimuths, start)
-    raw = derivatives(start, asked, n, rotor_speed == OVER_GROUND)
+    fine = n if start.inflow.is_dynamic else FINER * n
+    raw = derivatives(start, asked, fine, rotor_speed == OVER_GROUND)
     if not stick_rates:
         raw = without_rates(raw)
     said: dict[str, Any] = {}
@@ -100,7 +104,7 @@ def linearize(
         said["wake_curvature"] = gains.curvature
     system = periodic(
         start, raw, asked, blades, INFLOW if start.inflow.is_dynamic and wake == "frozen" else (), marched
-    )
+    ).coarser(n)
     kept = _harmonics(harmonics, raw.where.n_blades, blades, n) if method == METHODS[0] else ()
     constant = decomposed(system, kept) if kept else averaged(system)
     attributes = {

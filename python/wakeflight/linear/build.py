@@ -62,10 +62,19 @@ def without_rates(raw: Raw) -> Raw:
     return replace(raw, b_rate=np.zeros_like(raw.b_rate))
 
 
+def between(values: np.ndarray, n: int) -> np.ndarray:
+    """A periodic quantity (m, ...) at `n` azimuths, a multiple of m: linear between, as inflow is in flight."""
+    parts = n // values.shape[0]
+    shares = (np.arange(parts) / parts).reshape(1, parts, *[1] * (values.ndim - 1))
+    fine = values[:, None] + shares * (np.roll(values, -1, axis=0) - values)[:, None]
+    return np.asarray(fine.reshape(n, *values.shape[1:]))
+
+
 def with_wake(start: Trim, raw: Raw, gains: WakeGains, inputs: tuple[str, ...]) -> Raw:
     """The same with inflow that follows states and sticks at once."""
     where = raw.where
-    states, sticks = by_states(start, where, gains, columns(where.n_blades))
+    n = raw.psi.size
+    states, sticks = (between(each, n) for each in by_states(start, where, gains, columns(where.n_blades)))
     # states of the gains are multiblade coordinates of the blades
     a = raw.a + raw.held @ (states @ rotation(where, raw.psi, start.model.omega)[2])
     b = raw.b.copy()
@@ -78,14 +87,17 @@ def with_wake(start: Trim, raw: Raw, gains: WakeGains, inputs: tuple[str, ...]) 
 def with_states(start: Trim, raw: Raw, wake: WakeStates, inputs: tuple[str, ...], rates: bool) -> Raw:
     """The same with what a marched wake answers at once; `rates`: of the sticks too."""
     where = raw.where
-    a = raw.a + raw.held @ (wake.at_once @ rotation(where, raw.psi, start.model.omega)[2])
+    at_once, by_sticks, by_rates = (
+        between(each, raw.psi.size) for each in (wake.at_once, wake.by_sticks, wake.by_stick_rates)
+    )
+    a = raw.a + raw.held @ (at_once @ rotation(where, raw.psi, start.model.omega)[2])
     b, b_rate = raw.b.copy(), raw.b_rate.copy()
     for i, name in enumerate(inputs):
         if name in STICKS:
             stick = STICKS.index(name)
-            b[:, :, i] += np.einsum("tsl,tl->ts", raw.held, wake.by_sticks[:, :, stick])
+            b[:, :, i] += np.einsum("tsl,tl->ts", raw.held, by_sticks[:, :, stick])
             if rates:
-                b_rate[:, :, i] += np.einsum("tsl,tl->ts", raw.held, wake.by_stick_rates[:, :, stick])
+                b_rate[:, :, i] += np.einsum("tsl,tl->ts", raw.held, by_rates[:, :, stick])
     return replace(raw, a=a, b=b, b_rate=b_rate)
 
 
@@ -111,12 +123,13 @@ def periodic(
     slow = 0
     if wake is not None:
         slow = wake.order
-        driven = wake.b if multi else wake.b @ left
+        b_wake, c_wake = between(wake.b, raw.psi.size), between(wake.c, raw.psi.size)
+        driven = b_wake if multi else b_wake @ left
         own = np.zeros((slow, len(inputs)))
         for i, name in enumerate(inputs):
             if name in STICKS:
                 own[:, i] = wake.b_sticks[:, STICKS.index(name)]
-        a = _beside(a, held @ wake.c, driven, wake.a)
+        a = _beside(a, held @ c_wake, driven, wake.a)
         b, b_rate = _below(b, own), _below(b_rate, np.zeros_like(own))
         states = (*states, *((f"wake_{i + 1}", "1") for i in range(slow)))
         swap = np.block([[swap, np.zeros((where.size, slow))], [np.zeros((slow, where.size)), np.eye(slow)]])

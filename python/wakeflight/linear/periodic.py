@@ -6,7 +6,7 @@ Between the azimuths at which they are known they are trigonometric: exact for a
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -62,6 +62,21 @@ class PeriodicSystem:
         """C and D (len(psi), ...) at any azimuths."""
         c, d = (trigonometric(np.fft.rfft(each, axis=0), self.psi.size, psi) for each in (self.c, self.d))
         return c, d
+
+    def coarser(self, n: int) -> PeriodicSystem:
+        """The same at `n` of its azimuths: with the harmonics that they can tell, and without the others."""
+        if n == self.psi.size:
+            return self
+
+        def told(values: np.ndarray) -> np.ndarray:
+            spectrum = np.fft.rfft(values, axis=0)[: n // 2 + 1] * (n / self.psi.size)
+            if n % 2 == 0:
+                # of the last one they see the cosine alone
+                spectrum[-1] = spectrum[-1].real * 2.0
+            return np.fft.irfft(spectrum, n, axis=0)
+
+        a, b, b_rate, c, d = (told(each) for each in (self.a, self.b, self.b_rate, self.c, self.d))
+        return replace(self, psi=2 * np.pi * np.arange(n) / n, a=a, b=b, b_rate=b_rate, c=c, d=d)
 
     def transition(self, steps: int = 90) -> np.ndarray:
         """State after one passage by the state before (s, s): fourth-order Magnus steps, `steps` in a passage."""

@@ -19,11 +19,19 @@ def rows_of(model: Model, n: int, first: int) -> list[int]:
 def inputs(
     model: Model, problem: _core.TrimProblem, x: np.ndarray, inflow_map: np.ndarray | None, t: float
 ) -> _core.Inputs:
-    """Sticks and inflow that hold the trim at `t` [s]: the map at each blade's azimuth, None where inflow is a state."""
+    """Sticks and inflow that hold the trim at `t` [s]: the map at each blade's azimuth, None where inflow is a state.
+
+    Between its rows it is linear, as a flight has it.
+    """
     held, mean = None, 0.0
     if inflow_map is not None:
         n = inflow_map.shape[0]
-        held = inflow_map[rows_of(model, n, round(model.omega * t / (2 * np.pi) * n))]
+        steps = model.omega * t / (2 * np.pi) * n
+        here = round(steps)
+        held, beyond = inflow_map[rows_of(model, n, here)], steps - here
+        if abs(beyond) > 1e-9:
+            there = inflow_map[rows_of(model, n, here + (1 if beyond > 0.0 else -1))]
+            held = held + abs(beyond) * (there - held)
         mean = model.disk_mean(inflow_map)
     acting = _core.Inputs(x[:4], np.zeros(4), 0.0, held, mean, model.core.trim_stabilator(problem, x))
     if problem.wash is not None:
