@@ -99,7 +99,12 @@ def main() -> None:
     for name, spent in times.items():
         ratios = [a / b for a, b in zip(spent, times["bare"], strict=True)]
         least, median = quickest(spent), statistics.median(spent)
-        cells = [f"{least:.0f}", f"{median:.0f}", f"{least / quickest(times['bare']):.3f}", f"{statistics.median(ratios):.3f}"]
+        cells = [
+            f"{least:.0f}",
+            f"{median:.0f}",
+            f"{least / quickest(times['bare']):.3f}",
+            f"{statistics.median(ratios):.3f}",
+        ]
         rows.append([name, *cells])
     print(f"Measured on: {measure.machine()}.\n")
     print(measure.table(["on", "least us a step", "median", "ratio of the least", "median of ratios"], rows))
