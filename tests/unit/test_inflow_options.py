@@ -47,7 +47,7 @@ def test_the_defaults_are_those_of_the_coupled_flight():
     expected |= {"tip_strength": "equivalent", "inboard_wake": "none", "near_wake_segments": 6, "n_stations": 20}
     expected |= {"station_core_floor": 0.25, "far_wake_turns": 2, "sheet_factor": 1.0}
     assert {key: wake[key] for key in expected} == expected
-    assert (marching["scheme"], marching["predictor"]) == ("bdf2", "same")
+    assert (marching["scheme"], marching["predictor"]) == ("pcc", "same")
     relaxed = RelaxationWake().resolved("forward").core_options(load_aircraft("uh60a"))
     assert relaxed["wake"] == wake
     assert relaxed["relaxation"]["relaxation"] == 0.5

@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 
 import wakeflight as wf
+from wakeflight.linear.build import between
+from wakeflight.linear.periodic import PeriodicSystem
 from wakeflight.linear.reduction import balanced
 
 TABLE = Path(__file__).resolve().parents[2] / "validation" / "d10-bo105-derivatives" / "bo105_helisim.csv"
@@ -173,3 +175,41 @@ def test_python_control_gets_matrices_and_names():
     assert isinstance(found, control.StateSpace)
     assert np.array_equal(found.A, model.A) and found.state_labels == list(STATES)
     assert found.input_labels == ["collective", "longitudinal", "lateral", "pedal"]
+
+
+def test_what_is_known_at_some_azimuths_is_linear_between_them():
+    values = np.random.default_rng(7).normal(size=(6, 3, 2))
+    fine = between(values, 24)
+    assert np.array_equal(fine[::4], values) and np.array_equal(between(values, 6), values)
+    assert np.allclose(fine[1::4], 0.75 * values + 0.25 * np.roll(values, -1, axis=0))
+
+
+@pytest.mark.parametrize("n", [12, 9])
+def test_a_periodic_system_keeps_the_harmonics_that_fewer_azimuths_can_tell(n):
+    psi, rng = 2 * np.pi * np.arange(36) / 36, np.random.default_rng(8)
+
+    def periodic(orders, psi, seed):
+        parts = np.random.default_rng(seed).normal(size=(len(orders), 2, 2, 2))
+        return sum(
+            parts[i, 0] * np.cos(k * psi)[:, None, None] + parts[i, 1] * np.sin(k * psi)[:, None, None]
+            for i, k in enumerate(orders)
+        )
+
+    told, beyond = range((n + 1) // 2), (n // 2 + 1, n // 2 + 4)
+    known = [periodic(told, psi, seed) for seed in range(5)]
+    names = (("x", "m"), ("y", "m"))
+    full = PeriodicSystem(
+        psi,
+        27.0,
+        *(each + periodic(beyond, psi, int(rng.integers(99))) for each in known),
+        names,
+        names,
+        names,
+        3,
+        np.eye(2),
+    )
+    less = full.coarser(n)
+    at = 2 * np.pi * np.arange(n) / n
+    for seed, each in enumerate((less.a, less.b, less.b_rate, less.c, less.d)):
+        assert np.allclose(each, periodic(told, at, seed))
+    assert np.allclose(less.psi, at) and full.coarser(36) is full
