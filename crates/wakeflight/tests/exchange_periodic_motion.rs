@@ -122,7 +122,7 @@ fn the_exchange_adds_nothing_to_the_wake_that_stands_alone() {
     let start = steady.wake.as_ref().unwrap();
     // the far inflow of the step before, as it is
     let own = MarchingOptions { extrapolate: false, ..MarchingOptions::default() };
-    let marching = || TimeMarchingWake::from_relaxation(start, 0, own.clone()).unwrap();
+    let marching = || TimeMarchingWake::from_relaxation(start, 0, own).unwrap();
     let (mut exchange, mut alone) = (MarchingExchange::new(marching(), &steady, rotor), marching());
 
     let wake_hub = HubMotion { velocity: hub.velocity.array(), rates: hub.omega.array() };
