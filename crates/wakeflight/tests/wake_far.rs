@@ -81,6 +81,53 @@ fn verif_a_carried_far_wake_lies_where_the_flow_takes_it() {
 }
 
 #[test]
+fn verif_a_wake_marched_from_a_periodic_one_keeps_its_far_wake_and_its_inflow() {
+    // forward flight, fast enough for the marched wake to repeat itself
+    let options = WakeOptions { far_wake_turns: 4, core_growth: 1e-3, ..far_options() };
+    let (hub, ct, n) = (hub(0.1, 0.0, 0.0, 0.0, 0.0), 0.0065, options.steps_per_revolution());
+    let mut periodic = relaxation(&options, hub, ct, 0.03);
+    settle(&mut periodic, 1e-9, 600);
+    let at_rest = harmonics(periodic.grid(), &periodic.clone().inflow_far());
+    let near = WakeOptions { far_wake_turns: 0, ..options };
+    let mut without = relaxation(&near, hub, ct, 0.03);
+    settle(&mut without, 1e-9, 600);
+    let alone = harmonics(without.grid(), &without.clone().inflow_far());
+
+    let mut wake = TimeMarchingWake::from_relaxation(&periodic, 0, two_fields()).unwrap();
+    let mut marched = [0.0; 3];
+    for turn in 0..12 {
+        let (map, _) = revolution(&mut wake, hub, ct, turn * n);
+        marched = harmonics(wake.grid(), &map);
+    }
+    let (off, far) = ((marched[0] - at_rest[0]) / at_rest[0], (at_rest[0] - alone[0]) / at_rest[0]);
+    let (here, there) = (&periodic.instant(0).far, &wake.instant().far);
+    let apart = here
+        .position
+        .iter()
+        .zip(&there.position)
+        .map(|(a, b)| (0..3).map(|c| (a[c] - b[c]).powi(2)).sum::<f64>().sqrt() / RADIUS);
+    let apart = apart.fold(0.0, f64::max);
+    // repeats of the last turn, displaced by what a marker moves in a revolution, would lie elsewhere
+    let free = &periodic.instant(0).free;
+    let (length, repeats) = (options.n_segments(), options.far_wake_turns as f64);
+    let repeated = (0..free.n_filaments).map(|i| {
+        let (m, last) = (free.marker(i, 0), there.position[there.marker(i, there.n_segments)]);
+        let off = |c: usize| {
+            let moved = |k: usize| free.position[m + k][c] - free.position[m + k - n][c];
+            let pitch = (length + 1 - n..=length).map(moved).sum::<f64>() / n as f64;
+            free.position[m + length][c] + repeats * pitch - last[c]
+        };
+        (0..3).map(|c| off(c).powi(2)).sum::<f64>().sqrt() / RADIUS
+    });
+    let repeated = repeated.fold(0.0, f64::max);
+    println!("inflow {at_rest:?}, marched {marched:?}: off by {off:.1e}; the far wake's share {far:.3}");
+    println!("far wakes apart {apart:.1e} R, repeats {repeated:.1e} R");
+    assert!(far.abs() > 0.02, "{far}");
+    assert!(off.abs() < 2e-3, "{off}");
+    assert!(apart < 0.1 && repeated > 2.0 * apart, "{apart} {repeated}");
+}
+
+#[test]
 fn what_is_released_reaches_the_far_wake_when_the_flow_brings_it() {
     let options = far_options();
     let (n, free) = (options.steps_per_revolution(), options.n_segments());

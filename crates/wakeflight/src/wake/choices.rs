@@ -139,7 +139,7 @@ choices! {
 choices! {
     /// What goes on behind the old ends of the free filaments.
     pub enum FarWake {
-        /// Repeats of the last turn; nothing where there are none.
+        /// The last turn carried on by the flow; nothing where there are no turns of it.
         Repeat = "repeat",
         /// A semi-infinite vortex cylinder; tip vortices alone, in hover and climb.
         Cylinder = "cylinder",

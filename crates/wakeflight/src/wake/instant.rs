@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 pub struct RotorInstant {
     /// Free filaments, blade after blade, each from root to tip: the tip vortices, or all trailers.
     pub free: Filaments,
-    /// What is carried on behind the free filaments of a wake that marches; none of a periodic wake, whose last turn is repeated.
+    /// What is carried on behind the free filaments.
     pub far: Filaments,
     /// Filaments of the inboard sheet, blade after blade; none without a sheet.
     pub sheet: Filaments,

@@ -13,7 +13,7 @@ use super::filament::Filaments;
 use super::options::WakeOptions;
 use super::sink::{Sink, Viewer};
 
-/// Appends filament `i` from the viewer's first marker on, and its far wake; `far`: that which is carried, or none.
+/// Appends filament `i` from the viewer's first marker on, and its far wake.
 pub(crate) fn push_filament(
     segments: &mut impl Sink,
     options: &WakeOptions,

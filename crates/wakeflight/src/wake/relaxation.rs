@@ -1,7 +1,8 @@
 //! Periodic wake of a steady flight condition by pseudo-implicit predictor-corrector relaxation [bagai1995].
 
 use super::error::{WakeError, checked_pace, finite, length};
-use super::filament::{aged_cores, distance, stretched_core_squared};
+use super::far_wake;
+use super::filament::{Filaments, aged_cores, distance, stretched_core_squared};
 use super::geometry::{BladeGrid, release_points};
 use super::ground::Plane;
 use super::inboard_sheet;
@@ -253,8 +254,9 @@ impl<F: InducedVelocity> RelaxationWake<F> {
     pub fn inflow_far(&mut self) -> Vec<f64> {
         let (n_psi, n_r) = (self.options.steps_per_revolution(), self.options.n_stations);
         let (mut inflow, mut lambda) = (vec![0.0; n_psi * n_r], Vec::new());
+        let far = self.far_of(&self.position);
         for l in 0..n_psi / self.options.rotor.n_blades {
-            let instant = self.instant_of(l, &self.position, &self.core_squared);
+            let instant = self.instant_of(l, &self.position, &self.core_squared, &far);
             let wanted = Wanted { stations: Some(&mut lambda), ..Wanted::default() };
             self.evaluations += field_at(&self.field, &self.options, &instant, &mut self.work, wanted);
             for (blade, values) in lambda.chunks_exact(n_r).enumerate() {
@@ -277,6 +279,7 @@ impl<F: InducedVelocity> RelaxationWake<F> {
             azimuth_index % self.options.steps_per_revolution(),
             &self.position,
             &self.core_squared,
+            &self.far_of(&self.position),
         )
     }
 
@@ -367,16 +370,37 @@ impl<F: InducedVelocity> RelaxationWake<F> {
         cores
     }
 
-    /// Rotor and wake at row `l` with a given geometry.
-    fn instant_of(&self, l: usize, position: &[[f64; 3]], core_squared: &[f64]) -> RotorInstant {
+    /// Far wake (n_azimuths, n_trailers) that goes on behind a geometry.
+    fn far_of(&self, position: &[[f64; 3]]) -> Filaments {
+        let step = self.options.delta_psi() / self.options.rotor.omega * self.pace;
+        far_wake::periodic(&self.options, &self.hub, position, &self.released, step)
+    }
+
+    /// Rotor and wake at row `l` with a given geometry and its far wake.
+    fn instant_of(
+        &self,
+        l: usize,
+        position: &[[f64; 3]],
+        core_squared: &[f64],
+        far: &Filaments,
+    ) -> RotorInstant {
         let options = &self.options;
         let (n_k, n_t) = (options.n_segments(), options.trailers_per_blade());
         let (n_r, n_sheet) = (options.n_stations, options.sheet_filaments());
         let carry = inboard_sheet::convection(options, &self.hub, self.mean_inflow);
         let mut instant = RotorInstant::new(options, &self.grid);
         instant.ground = self.ground;
+        if far.n_segments > 0 {
+            (instant.far.n_filaments, instant.far.n_segments) =
+                (options.rotor.n_blades * n_t, far.n_segments);
+        }
         for blade in 0..options.rotor.n_blades {
             let row = self.blade_row(l, blade);
+            if far.n_segments > 0 {
+                let of_row = far.marker(row * n_t, 0)..far.marker((row + 1) * n_t, 0);
+                instant.far.position.extend_from_slice(&far.position[of_row.clone()]);
+                instant.far.circulation.extend_from_slice(&far.circulation[of_row]);
+            }
             instant.place_blade(
                 options,
                 &self.grid,

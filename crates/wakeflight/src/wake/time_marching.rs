@@ -96,8 +96,7 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
             });
         }
         let (n_k, n_t) = (options.n_segments(), options.trailers_per_blade());
-        let mut instant = relaxation.instant(azimuth_index);
-        instant.far = far_wake::repeated(&options, &instant.free);
+        let instant = relaxation.instant(azimuth_index);
         let mut carrier = Vec::with_capacity(instant.free.position.len());
         let mut levels: [Vec<[f64; 3]>; 3] = Default::default();
         for i in 0..options.rotor.n_blades * n_t {

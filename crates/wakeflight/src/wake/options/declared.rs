@@ -111,12 +111,12 @@ declare! {
         /// Smallest core seen by blade stations, over the chord; not for the near wake.
         station_core_floor: f64 = always(0.25), unit("c"), between(0.0, 2.0);
 
-        /// What goes on behind the free filaments: repeats of the last turn, or, for tip vortices alone in hover and climb, a
+        /// What goes on behind the free filaments: the last turn carried on, or, for tip vortices alone in hover and climb, a
         /// semi-infinite vortex cylinder (`cylinder`).
         far_wake: FarWake = always(FarWake::Repeat), tip_alone(), source(&["branlard2014"]);
 
-        /// Turns of far wake behind the free filaments: repeats of the last turn, carried on by a wake that marches; of a full-span
-        /// wake in its mean circulation and in steps of 30 deg. None with a `cylinder`.
+        /// Turns of far wake behind the free filaments: what leaves them, carried on with the mean velocity of the last turn; of a
+        /// full-span wake in its mean circulation and in steps of 30 deg. None with a `cylinder`.
         far_wake_turns: usize = by_regime(0, 2, 12), lattice(by_regime(2, 6, 2).at_low_speed(4)), unit("turns"), between(0.0, 50.0),
             finer_larger("far-wake-turns", None);
 

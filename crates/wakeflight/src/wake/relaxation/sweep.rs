@@ -12,8 +12,9 @@ impl<F: InducedVelocity> RelaxationWake<F> {
         let markers = n_t * (self.options.n_segments() + 1);
         let mut velocity = vec![[0.0; 3]; position.len()];
         let mut at_instant = Vec::new();
+        let far = self.far_of(position);
         for l in 0..self.options.steps_per_revolution() / self.options.rotor.n_blades {
-            let instant = self.instant_of(l, position, core_squared);
+            let instant = self.instant_of(l, position, core_squared, &far);
             let wanted = Wanted { markers: Some((&self.hub, &mut at_instant)), ..Wanted::default() };
             self.evaluations += field_at(&self.field, &self.options, &instant, &mut self.work, wanted);
             for blade in 0..self.options.rotor.n_blades {
