@@ -93,8 +93,9 @@ class IdaIntegrator:
         self.rtol = rtol
         self.atol = atol_scale * absolute_tolerances(model)
         self._inputs: _core.Inputs
-        # a hair more, so that a step of as many degrees counts as that
-        self._kept = {name: np.radians(angle) * (1.0 + 1e-6) / model.omega for name, angle in KEPT.items()}
+        # a hair more, so that a step of as many degrees counts as that; those of a free rotor miss it by what it gathers speed
+        hair = 1e-3 if model.has_free_speed else 1e-6
+        self._kept = {name: np.radians(angle) * (1.0 + hair) for name, angle in KEPT.items()}
         self._statistics = {"residual_evaluations": 0, "jacobians": 0}
         self._forget()
 
@@ -137,18 +138,25 @@ class IdaIntegrator:
     def consistent(self, t: float, y: np.ndarray, inputs: _core.Inputs) -> np.ndarray:
         """y_dot that satisfies F = 0 at (t, y); the derivatives found for it serve the step that follows."""
         guess = np.zeros(y.size) if self._rate is None else self._rate
-        renew = self._found(t) == "dF/dy"
-        self._found_at["dF/dy_dot"] = t
+        renew = self._found(t, y) == "dF/dy"
+        self._found_at["dF/dy_dot"] = self._turned(t, y)
         self._rate = self._linearised.consistent(self.model.core, (t, y), guess, inputs, renew)
         return self._rate
 
-    def _found(self, t: float) -> str | None:
-        """Which derivatives are to be found at `t`: dF/dy and with it all, dF/dy_dot alone, or none."""
+    def _turned(self, t: float, y: np.ndarray) -> float:
+        """Azimuth of the first blade [rad]: a state, or by the clock."""
+        if self.model.has_free_speed:
+            return float(y[self.model.layout["turn"][0]])
+        return self.model.core.turned(t)
+
+    def _found(self, t: float, y: np.ndarray) -> str | None:
+        """Which derivatives are to be found at (t, y): dF/dy and with it all, dF/dy_dot alone, or none."""
+        azimuth = self._turned(t, y)
         for name, kept in self._kept.items():
-            if t - self._found_at[name] > kept:
-                self._found_at["dF/dy_dot"] = t
+            if azimuth - self._found_at[name] > kept:
+                self._found_at["dF/dy_dot"] = azimuth
                 if name == "dF/dy":
-                    self._found_at[name] = t
+                    self._found_at[name] = azimuth
                     self._statistics["jacobians"] += 1
                 return name
         return None
@@ -173,7 +181,7 @@ class IdaIntegrator:
         self.model.core.residual(t, y, y_dot, self._inputs, f)
 
     def _jacobian(self, t: float, y: np.ndarray, y_dot: np.ndarray, f: np.ndarray, c_j: float, out: np.ndarray) -> None:
-        which = self._found(t)
+        which = self._found(t, y)
         if which is not None:
             self._linearised.renew(self.model.core, (t, y), y_dot, self._inputs, which == "dF/dy")
         self._linearised.matrix(c_j, out)

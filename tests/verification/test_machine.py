@@ -115,6 +115,18 @@ def test_a_governed_rotor_keeps_its_derivatives_as_long_as_one_of_constant_speed
     assert runs[1].attrs["jacobians"] <= runs[0].attrs["jacobians"] + 1
 
 
+@pytest.mark.parametrize("rotor_speed", ["governed", "free", [("0 s", 1.0), ("0.1 s", 0.97)]])
+def test_ida_keeps_derivatives_over_an_azimuth_whatever_the_speed(baseline_dynamic, rotor_speed):
+    # the age of dF/dy counts in azimuth turned: by the nominal speed's clock a slower rotor outlives it within a step
+    maneuver = wf.arrested_descent()
+    constant, turned = (
+        wf.fly(baseline_dynamic, maneuver, revolutions=8, integrator="ida", rotor_speed=speed).data
+        for speed in ("constant", rotor_speed)
+    )
+    assert float(abs(turned.rotor_speed / turned.rotor_speed[0] - 1.0).max()) > 1e-3
+    assert abs(turned.attrs["jacobians"] / constant.attrs["jacobians"] - 1.0) < 0.05
+
+
 @pytest.mark.parametrize("rotor_speed", ["constant", "governed"])
 def test_derivatives_in_a_wind_are_those_by_differences(baseline_dynamic, rotor_speed):
     # one direction of the attitude is left to the others in each of two attitudes

@@ -53,14 +53,17 @@ fn momentum<S: Real>(
 }
 
 impl Blade {
-    /// Mass matrix at azimuth `psi` [rad] in the present deflection and pitch. No branch looks at a value.
+    /// Mass matrix at azimuth `psi` [rad] in the present deflection and pitch. `pitched`: acceleration of the blade's pitch by the rate
+    /// of a speed that is a state; with it what that rate does, modal forces and force and moment on the hub. No branch looks at a
+    /// value.
     #[inline(always)]
     pub fn mass_matrix<S: Real>(
         &self,
         psi: S,
         modal: &ModalMotion<S>,
         control: &PitchMotion<S>,
-    ) -> BladeMass<S> {
+        pitched: Option<S>,
+    ) -> (BladeMass<S>, Option<TurnMass<S>>) {
         let (n, zero) = (self.n_modes, Vec3::zero());
         let still: Vec3<S, Hub> = Vec3::zero();
         let at_rest =
@@ -75,6 +78,8 @@ impl Blade {
         let mut own = [[S::zero(); MAX_MODES]; MAX_MODES];
         let (mut force, mut moment) = ([zero; MAX_MODES], [zero; MAX_MODES]);
         let (mut first, mut inertia) = (zero, [zero; 3]);
+        let mut turned = TurnMass { own: [S::zero(); MAX_MODES], force: still, moment: still };
+        let (mut turned_force, mut turned_moment) = (zero, zero);
         for point in &self.structure {
             let pitch = PitchMotion { theta: control.theta + point.twist, ..*control };
             let m = point.shapes.motion(n, modal, &pitch);
@@ -93,6 +98,15 @@ impl Blade {
                     own[i][j] += linear.dot(motions[j].0) + angular.dot(motions[j].1);
                 }
             }
+            if let Some(pitched) = pitched {
+                let shaft = axes[2];
+                let (linear, angular) = momentum(point, &m, shaft.cross(m.position), shaft + m.t * pitched);
+                turned_force += linear;
+                turned_moment += m.position.cross(linear) + angular;
+                for i in 0..n {
+                    turned.own[i] += linear.dot(motions[i].0) + angular.dot(motions[i].1);
+                }
+            }
         }
         for i in 0..n {
             for j in 0..i {
@@ -104,43 +118,14 @@ impl Blade {
             hub_force[i] = carrier.to_hub(force[i]);
             hub_moment[i] = carrier.to_hub(moment[i]);
         }
-        BladeMass {
+        (turned.force, turned.moment) = (carrier.to_hub(turned_force), carrier.to_hub(turned_moment));
+        let mass = BladeMass {
             own,
             force: hub_force,
             moment: hub_moment,
             first_moment: carrier.to_hub(first),
             inertia: [carrier.to_hub(inertia[0]), carrier.to_hub(inertia[1]), carrier.to_hub(inertia[2])],
-        }
-    }
-
-    /// Modal forces, and force and moment on the hub, by the rate of the speed that turns the blade about the shaft, at azimuth
-    /// `psi` [rad]; `pitched`: acceleration of its pitch by that rate. No branch looks at a value.
-    #[inline(always)]
-    pub fn mass_of_turn<S: Real>(
-        &self,
-        psi: S,
-        modal: &ModalMotion<S>,
-        control: &PitchMotion<S>,
-        pitched: S,
-    ) -> TurnMass<S> {
-        let (n, zero) = (self.n_modes, Vec3::zero());
-        let still: Vec3<S, Hub> = Vec3::zero();
-        let at_rest =
-            HubMotion { velocity: still, acceleration_less_gravity: still, omega: still, omega_dot: still };
-        let carrier = Carrier::new(&at_rest, psi, self.precone, 0.0);
-        let shaft: Vec3<S, BladeAxes> = carrier.to_blade(Vec3::cst([0.0, 0.0, 1.0]));
-        let (mut own, mut force, mut moment) = ([S::zero(); MAX_MODES], zero, zero);
-        for point in &self.structure {
-            let pitch = PitchMotion { theta: control.theta + point.twist, ..*control };
-            let m = point.shapes.motion(n, modal, &pitch);
-            let (linear, angular) = momentum(point, &m, shaft.cross(m.position), shaft + m.t * pitched);
-            force += linear;
-            moment += m.position.cross(linear) + angular;
-            for (i, own) in own.iter_mut().enumerate().take(n) {
-                let (shift, turn) = m.test_motion(&point.shapes, i);
-                *own += linear.dot(shift) + angular.dot(turn);
-            }
-        }
-        TurnMass { own, force: carrier.to_hub(force), moment: carrier.to_hub(moment) }
+        };
+        (mass, pitched.map(|_| turned))
     }
 }

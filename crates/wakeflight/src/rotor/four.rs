@@ -146,19 +146,37 @@ fn side_by_side<S: Four>(b: &[BladePose; 4], n: usize) -> (S, ModalMotion<S>, Pi
     (psi, modal, control)
 }
 
-/// Mass matrices of four blades.
+/// Mass matrices of four blades, and what the rate of the rotor's speed does to them where that is a state.
+pub type FourMassesFound = ([BladeMass<f64>; 4], Option<[TurnMass<f64>; 4]>);
+
+/// What the rate of the speed does to four blades side by side, one by one.
+#[inline(always)]
+fn turns_apart<S: Four>(four: &TurnMass<S>, n: usize) -> [TurnMass<f64>; 4] {
+    let (force, moment) = (apart(&four.force), apart(&four.moment));
+    let mut own = [[0.0; MAX_MODES]; 4];
+    for (i, each) in four.own.iter().enumerate().take(n) {
+        for (own, value) in own.iter_mut().zip(each.values()) {
+            own[i] = value;
+        }
+    }
+    std::array::from_fn(|k| TurnMass { own: own[k], force: force[k], moment: moment[k] })
+}
+
+/// Finds mass matrices.
 struct FourMasses<'a> {
     rotor: &'a Rotor,
     blades: &'a [BladePose; 4],
+    /// Acceleration of each blade's pitch by the rate of the speed.
+    pitched: Option<[f64; 4]>,
 }
 
 impl FourTask for FourMasses<'_> {
-    type Output = [BladeMass<f64>; 4];
+    type Output = FourMassesFound;
     #[inline(always)]
     fn run<S: Four>(self) -> Self::Output {
         let n = self.rotor.blade.n_modes;
         let (psi, modal, control) = side_by_side::<S>(self.blades, n);
-        let four = self.rotor.blade.mass_matrix(psi, &modal, &control);
+        let (four, turned) = self.rotor.blade.mass_matrix(psi, &modal, &control, self.pitched.map(S::of));
         let nothing = Vec3::zero();
         let none = BladeMass {
             own: [[0.0; MAX_MODES]; MAX_MODES],
@@ -191,33 +209,7 @@ impl FourTask for FourMasses<'_> {
                 masses[k].inertia[axis] = inertia[k];
             }
         }
-        masses
-    }
-}
-
-/// What the rate of the rotor's speed does to four blades.
-struct FourTurns<'a> {
-    rotor: &'a Rotor,
-    blades: &'a [BladePose; 4],
-    /// Acceleration of each blade's pitch by the rate.
-    pitched: [f64; 4],
-}
-
-impl FourTask for FourTurns<'_> {
-    type Output = [TurnMass<f64>; 4];
-    #[inline(always)]
-    fn run<S: Four>(self) -> Self::Output {
-        let n = self.rotor.blade.n_modes;
-        let (psi, modal, control) = side_by_side::<S>(self.blades, n);
-        let four = self.rotor.blade.mass_of_turn(psi, &modal, &control, S::of(self.pitched));
-        let (force, moment) = (apart(&four.force), apart(&four.moment));
-        let mut own = [[0.0; MAX_MODES]; 4];
-        for (i, each) in four.own.iter().enumerate().take(n) {
-            for (own, value) in own.iter_mut().zip(each.values()) {
-                own[i] = value;
-            }
-        }
-        std::array::from_fn(|k| TurnMass { own: own[k], force: force[k], moment: moment[k] })
+        (masses, turned.map(|turned| turns_apart(&turned, n)))
     }
 }
 
@@ -250,23 +242,19 @@ impl Rotor {
         loads
     }
 
-    /// Mass matrices of four blades.
-    pub fn four_mass_matrices(&self, blades: &[BladePose; 4]) -> [BladeMass<f64>; 4] {
-        four_at_once(FourMasses { rotor: self, blades }).unwrap_or_else(|task| {
-            std::array::from_fn(|k| {
+    /// Mass matrices of four blades, and where the speed is a state what its rate does to them, whose pitch it accelerates by `pitched`
+    /// each.
+    pub fn four_mass_matrices(&self, blades: &[BladePose; 4], pitched: Option<[f64; 4]>) -> FourMassesFound {
+        four_at_once(FourMasses { rotor: self, blades, pitched }).unwrap_or_else(|task| {
+            let all: [_; 4] = std::array::from_fn(|k| {
                 let (psi, modal, control) = &task.blades[k];
-                self.blade.mass_matrix(*psi, modal, control)
-            })
-        })
-    }
-
-    /// What the rate of the speed does to four blades, whose pitch it accelerates by `pitched` each.
-    pub fn four_turn_masses(&self, blades: &[BladePose; 4], pitched: [f64; 4]) -> [TurnMass<f64>; 4] {
-        four_at_once(FourTurns { rotor: self, blades, pitched }).unwrap_or_else(|task| {
-            std::array::from_fn(|k| {
-                let (psi, modal, control) = &task.blades[k];
-                self.blade.mass_of_turn(*psi, modal, control, task.pitched[k])
-            })
+                self.blade.mass_matrix(*psi, modal, control, task.pitched.map(|each| each[k]))
+            });
+            let turned = match all.map(|(_, turned)| turned) {
+                [Some(a), Some(b), Some(c), Some(d)] => Some([a, b, c, d]),
+                _ => None,
+            };
+            (all.map(|(mass, _)| mass), turned)
         })
     }
 }

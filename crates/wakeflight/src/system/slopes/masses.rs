@@ -34,10 +34,12 @@ impl System {
                 turning: self.layout.attitude().len(),
             };
             let (n, mass, spin) = (rotor.n_blades, rotor.blade.mass, self.spin(r, at));
+            let turned_by = self.layout.rotors[r].spin().map(|place| slopes.place[place.speed]);
             for first in (0..n).step_by(4) {
                 // fewer than four left: the last stands in for those that are not there
+                let blade = |k: usize| (first + k).min(n - 1);
                 let poses = std::array::from_fn(|k| {
-                    let b = (first + k).min(n - 1);
+                    let b = blade(k);
                     let psi = rotor.azimuth(spin.psi, b);
                     (
                         psi,
@@ -45,16 +47,22 @@ impl System {
                         self.blade_pitch(r, at.inputs, (at.t, &spin), b),
                     )
                 });
-                let masses = rotor.four_mass_matrices(&poses);
+                let pitched = self.pitched_by_turn(r, at, std::array::from_fn(blade));
+                let (masses, turned) = rotor.four_mass_matrices(&poses, pitched);
                 for (b, (blade, (_, modal, control))) in (first..n).zip(masses.iter().zip(&poses)) {
                     let slopes = &mut slopes.blades[offset + b];
                     slopes.keep_mass(mass, blade, &hub);
                     slopes.add_damper(&rotor.damper_slopes(modal, control));
                 }
+                if let (Some(column), Some(turned)) = (turned_by, &turned) {
+                    for (b, mass) in (first..n).zip(turned) {
+                        slopes.blades[offset + b].keep_turn(column, mass);
+                    }
+                }
             }
             offset += n;
         }
-        self.masses_of_turn(at, slopes);
+        self.engines_by_turn(at, slopes);
     }
 
     /// Derivatives of the acceleration of hub `r` less gravity by the attitude quaternion; zero on a stand.

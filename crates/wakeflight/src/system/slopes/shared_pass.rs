@@ -5,6 +5,7 @@ use crate::numerics::frames::Vec3;
 use crate::numerics::scalar::Real;
 use crate::numerics::wide::DIRECTIONS;
 use crate::system::instant::Instant;
+use crate::system::layout::Layout;
 use crate::system::model::System;
 use crate::system::rotor_loads::{RotorLoads, RotorShare};
 
@@ -33,18 +34,26 @@ impl System {
         let speeds = self.layout.rotors.iter().filter_map(|l| l.spin()).map(|p| slopes.place[p.speed]);
         let accelerated: Vec<usize> =
             if slopes.carrier_known { Vec::new() } else { (0..moving).chain(speeds).collect() };
-        let n_rates = accelerated.len();
+        // north, east and azimuths are in none of these rows
+        let unfelt = self.unfelt();
+        let (unfelt, felt): (Vec<usize>, Vec<usize>) =
+            (0..n).partition(|&k| unfelt.contains(&slopes.shared[k]));
+        for &k in &unfelt {
+            (0..n).for_each(|i| slopes.shared_y.set(i, k, 0.0));
+        }
+        let (n_states, n_rates) = (felt.len(), accelerated.len());
         let direction = |k: usize| {
-            if k < n {
-                return Direction::State(k);
+            if k < n_states {
+                return Direction::State(felt[k]);
             }
-            if k < n + n_rates {
-                return Direction::Acceleration(accelerated[k - n]);
+            if k < n_states + n_rates {
+                return Direction::Acceleration(accelerated[k - n_states]);
             }
-            let (r, j) = ((k - n - n_rates) / (N_LOADS + 1), (k - n - n_rates) % (N_LOADS + 1));
+            let k = k - n_states - n_rates;
+            let (r, j) = (k / (N_LOADS + 1), k % (N_LOADS + 1));
             if j < N_LOADS { Direction::Load(r, j) } else { Direction::Flapping(r) }
         };
-        let n_directions = n + n_rates + self.rotors.len() * (N_LOADS + 1);
+        let n_directions = n_states + n_rates + self.rotors.len() * (N_LOADS + 1);
         let loads: Vec<[f64; N_LOADS]> = shares.iter().map(|s| loads_array(&s.loads)).collect();
         for first in (0..n_directions).step_by(DIRECTIONS) {
             let lanes = DIRECTIONS.min(n_directions - first);
@@ -58,13 +67,13 @@ impl System {
                     Direction::Flapping(r) => flapping[r].eps[lane] = 1.0,
                 }
             }
-            let felt: Vec<RotorShare<D>> = loads
+            let brought: Vec<RotorShare<D>> = loads
                 .iter()
                 .zip(&flapping)
                 .map(|(loads, &beta_1c)| RotorShare { loads: loads_of(loads), beta_1c })
                 .collect();
             let dual = Instant { t: at.t, y: &slopes.y, y_dot: &slopes.y_dot, inputs: at.inputs };
-            self.shared_rows(&dual, &felt, &mut slopes.f);
+            self.shared_rows(&dual, &brought, &mut slopes.f);
             for lane in 0..lanes {
                 let direction = direction(first + lane);
                 for i in 0..n {
@@ -84,6 +93,13 @@ impl System {
             }
         }
         slopes.carrier_known = true;
+    }
+
+    /// States that no shared row feels but through the blades: where the carrier is over the ground, and azimuths.
+    fn unfelt(&self) -> Vec<usize> {
+        let azimuths = self.layout.rotors.iter().filter_map(|l| l.spin()).map(|place| place.azimuth);
+        let carried = if self.layout.free { Layout::POSITION.start..Layout::POSITION.end - 1 } else { 0..0 };
+        carried.chain(azimuths).collect()
     }
 }
 

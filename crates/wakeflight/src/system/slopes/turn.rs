@@ -4,6 +4,7 @@
 use super::{BladeSlopes, Slopes};
 use crate::blade::MAX_MODES;
 use crate::blade::kinematics::{ModalMotion, PitchMotion};
+use crate::blade::mass_matrix::TurnMass;
 use crate::numerics::frames::Vec3;
 use crate::numerics::scalar::{Dual, Real};
 use crate::rotor::speed::{Spin, Turning};
@@ -43,50 +44,42 @@ impl System {
         }
     }
 
-    /// Derivatives by the rate of the speed: loads and modal rows of the blades, whose pitch it accelerates too, and the power.
-    pub(super) fn masses_of_turn(&self, at: &Instant<f64>, slopes: &mut Slopes) {
+    /// Acceleration of the pitch of four `blades` of rotor `r` by the rate of its speed, where that is a state.
+    pub(super) fn pitched_by_turn(
+        &self,
+        r: usize,
+        at: &Instant<f64>,
+        blades: [usize; 4],
+    ) -> Option<[f64; 4]> {
         type D = Dual<1>;
-        let mut offset = 0;
-        for (r, rotor, l) in self.each_rotor() {
-            let (n, blades) = (rotor.n_blades, offset);
-            offset += n;
-            let Some(place) = l.spin() else { continue };
-            let column = slopes.place[place.speed];
-            let turning = Turning { omega: D::cst(at.y[place.speed]), omega_dot: D::variable(0.0, 0) };
-            let spin = Spin { psi: D::cst(at.y[place.azimuth]), turning };
-            for first in (0..n).step_by(4) {
-                // fewer than four left: the last stands in for those that are not there
-                let blade = |k: usize| (first + k).min(n - 1);
-                let pitches: [PitchMotion<D>; 4] =
-                    std::array::from_fn(|k| self.blade_pitch(r, at.inputs, (at.t, &spin), blade(k)));
-                let poses = std::array::from_fn(|k| {
-                    let p = &pitches[k];
-                    let control = PitchMotion {
-                        theta: p.theta.re,
-                        theta_dot: p.theta_dot.re,
-                        theta_ddot: p.theta_ddot.re,
-                    };
-                    let modal = self.modal_motion(r, at.y, at.y, blade(k));
-                    (rotor.azimuth(spin.psi.re, blade(k)), modal, control)
-                });
-                let masses = rotor.four_turn_masses(&poses, pitches.map(|p| p.theta_ddot.eps[0]));
-                for (b, mass) in (first..n).zip(&masses) {
-                    let blade = &mut slopes.blades[blades + b];
-                    for i in 0..blade.n_modes() {
-                        blade.by_shared_dot.set(i, column, -mass.own[i]);
-                    }
-                    // the air feels no acceleration
-                    let on_hub = [mass.force, mass.moment].map(Vec3::array);
-                    for (k, load) in on_hub.as_flattened().iter().enumerate() {
-                        blade.loads_by_shared_dot.set(k, column, -load);
-                    }
-                }
-            }
-            if let (Some(engine), Some(governor)) = (l.engine(), rotor.drive().and_then(|d| d.governor)) {
-                // changes where engines fail
+        let place = self.layout.rotors[r].spin()?;
+        let turning = Turning { omega: D::cst(at.y[place.speed]), omega_dot: D::variable(0.0, 0) };
+        let spin = Spin { psi: D::cst(at.y[place.azimuth]), turning };
+        let pitch = |b: usize| -> PitchMotion<D> { self.blade_pitch(r, at.inputs, (at.t, &spin), b) };
+        Some(blades.map(|b| pitch(b).theta_ddot.eps[0]))
+    }
+
+    /// The power of the engines by the rate of the speed: changes where they fail.
+    pub(super) fn engines_by_turn(&self, at: &Instant<f64>, slopes: &mut Slopes) {
+        for (_, rotor, l) in self.each_rotor() {
+            let governor = rotor.drive().and_then(|drive| drive.governor);
+            if let (Some(place), Some(engine), Some(governor)) = (l.spin(), l.engine(), governor) {
                 let slope = -governor.power_by_rate(at.inputs.engine.fuel);
-                slopes.alone_dot.set(slopes.place[engine.power], column, slope);
+                slopes.alone_dot.set(slopes.place[engine.power], slopes.place[place.speed], slope);
             }
+        }
+    }
+}
+
+impl BladeSlopes {
+    /// Keeps what the rate of the speed does to the blade, in the `column` of the speed: the air feels no acceleration.
+    pub(super) fn keep_turn(&mut self, column: usize, mass: &TurnMass<f64>) {
+        for i in 0..self.n_modes() {
+            self.by_shared_dot.set(i, column, -mass.own[i]);
+        }
+        let on_hub = [mass.force, mass.moment].map(Vec3::array);
+        for (k, load) in on_hub.as_flattened().iter().enumerate() {
+            self.loads_by_shared_dot.set(k, column, -load);
         }
     }
 }
