@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 import re
+from functools import lru_cache
 from typing import Any
 
 from .arguments import is_number, is_whole
@@ -87,6 +88,8 @@ EXAMPLES = {
 """One example of accepted text for each SI unit, for error lines."""
 
 
+# a table asks for the same two units at every one of its thousands of numbers
+@lru_cache(maxsize=1024)
 def factor(unit: str) -> tuple[float, tuple[int, ...]] | None:
     """SI factor of a unit such as `slug ft2`, and its powers of kg, m, s, rad; None if not known here."""
     total, powers, position = 1.0, [0, 0, 0, 0], 0
