@@ -292,9 +292,10 @@ y = "power"
 def test_killed_and_resumed_is_identical(tmp_path):
     file = tmp_path / "power.toml"
     file.write_text(SWEEP)
-    command = [sys.executable, "-m", "wakeflight", "sweep", str(file), "--workers", "1", "--no-figures", "--out"]
+    asked = ["sweep", str(file), "--workers", "1", "--no-figures", "--out"]
     cut, whole = tmp_path / "cut", tmp_path / "whole"
-    process = subprocess.Popen([*command, str(cut)], stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
+    command = [sys.executable, "-m", "wakeflight", *asked, str(cut)]
+    process = subprocess.Popen(command, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
     while process.poll() is None and len(list((cut / "cases").glob("*.npz"))) < 2:
         time.sleep(0.05)
     process.send_signal(signal.SIGKILL)
@@ -302,8 +303,7 @@ def test_killed_and_resumed_is_identical(tmp_path):
     n_done = len(list((cut / "cases").glob("*.npz")))
     assert 2 <= n_done < 6 and not (cut / "table.nc").exists()
     for folder, more in ((cut, ["--resume"]), (whole, [])):
-        done = subprocess.run([*command, str(folder), *more], capture_output=True, text=True)
-        assert done.returncode == 0, done.stderr
+        assert _run([*asked, folder, *more]) == 0
     assert (cut / "table.nc").read_bytes() == (whole / "table.nc").read_bytes()
 
 
