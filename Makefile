@@ -38,7 +38,7 @@ test: $(STAMPS)/dev
 	$(BIN)/ruff check python tests validation docs/tools examples
 	$(BIN)/ruff format --check python tests validation docs/tools examples
 	$(BIN)/mypy
-	WAKEFLIGHT_THREADS=1 $(BIN)/python -m pytest -m "not slow" --numprocesses $(PROCESSES) --dist loadfile
+	WAKEFLIGHT_THREADS=1 $(BIN)/python -m pytest -m "not slow" --numprocesses $(PROCESSES) --dist loadfile --no-loadscope-reorder
 
 validate: $(STAMPS)/dev $(STAMPS)/package
 	cargo test $(CARGO_FLAGS) --workspace --quiet -- --ignored

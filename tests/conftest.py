@@ -4,6 +4,24 @@ import pytest
 
 import wakeflight as wf
 
+LONG = (
+    "test_resuming.py",
+    "test_linear_identified.py",
+    "test_linear_wake_states.py",
+    "test_docs.py",
+    "test_atomic.py",
+    "test_sweep.py",
+    "test_control_in_flight.py",
+    "test_envelope.py",
+    "test_stub.py",
+)
+"""Files that take longest, begun first: a process is given whole files, and what is begun last is waited for alone."""
+
+
+def pytest_collection_modifyitems(items):
+    """Long files first, the others in their order."""
+    items.sort(key=lambda item: LONG.index(item.path.name) if item.path.name in LONG else len(LONG))
+
 
 @pytest.fixture(scope="session")
 def uh60a():
