@@ -23,18 +23,21 @@ class Derivatives:
 class Problem:
     """What the solver asks of an aircraft: residual and derivatives, here of a test problem.
 
-    The rotor speed is infinite: derivatives serve no longer than the instant they were found at.
+    It turns by so much that derivatives serve no longer than the instant they were found at.
     """
 
     def __init__(self, n, residual, jacobian):
         self.n, self.f, self.j = n, residual, jacobian
         self.core = self
-        self.omega = np.inf
+        self.omega, self.has_free_speed = np.inf, False
         self.layout = {"size": n, "modal": [], "modal_rate": [], "inflow": (0, 0), "tail_inflow": (0, 0)}
         self.rotor = {"angle_per_coordinate": [1.0], "frequencies": [1.0]}
 
     def residual(self, t, y, y_dot, inputs, out):
         out[:] = self.f(t, y, y_dot)
+
+    def turned(self, t):
+        return 1e12 * t
 
     def linearised(self):
         return Derivatives()

@@ -156,9 +156,11 @@
     pen.fillStyle = "#222"; pen.font = "600 " + 14 * ratio + "px system-ui, sans-serif";
     pen.fillText(model.name, 10 * ratio, 20 * ratio);
     pen.font = 12 * ratio + "px system-ui, sans-serif";
-    const text = (v, d) => v.toFixed(d).replace("-", "−");
     pen.fillText("θ " + text(pitch * DEG, 1) + "°   φ " + text(roll * DEG, 1) + "°   mean inflow λ₀ " + text(model.inflowMean[f], 4), 10 * ratio, 38 * ratio);
     if (!model.wake) pen.fillText("no wake; disk coloured by inflow λ", 10 * ratio, 55 * ratio);
+  }
+  function text(v, digits) {
+    return v.toFixed(digits).replace(/^-(0(\.0*)?)$/, "$1").replace("-", "−");
   }
   function axesMark(pen, canvas, ratio, hub) {
     const [cy, sy, cu, su] = [Math.cos(state.yaw), Math.sin(state.yaw), Math.cos(state.up), Math.sin(state.up)];
@@ -176,7 +178,7 @@
   function legend() {
     const by = part("colour").value, pen = part("scale").getContext("2d"), { width, height } = part("scale");
     pen.clearRect(0, 0, width, height);
-    const fixed = (v) => v.toFixed(1).replace("-", "−"), [low, high] = current().circulation, [l0, l1] = current().inflow;
+    const [low, high] = current().circulation, [l0, l1] = current().inflow;
     const wake = current().models.find((m) => m.wake), turns = wake ? wake.turns : 0;
     const bar = (x, w, from, to, title) => {
       for (let k = 0; k < w; k++) { pen.fillStyle = colour(k / w); pen.fillRect(x + k, 18, 1, 12); }
@@ -184,13 +186,13 @@
       pen.textAlign = "left"; pen.fillText(title, x, 12); pen.fillText(from, x, 44);
       pen.textAlign = "right"; pen.fillText(to, x + w, 44); pen.textAlign = "left";
     };
-    if (wake && by === "circulation") bar(10, 240, fixed(low), fixed(high), "wake: circulation Γ [m²/s]");
+    if (wake && by === "circulation") bar(10, 240, text(low, 1), text(high, 1), "wake: circulation Γ [m²/s]");
     if (wake && by === "age") bar(10, 240, "0", turns.toFixed(0), "wake: age [revolutions]");
     if (wake && by === "blade") BLADE.forEach((c, k) => {
       pen.fillStyle = c; pen.fillRect(10 + 62 * k, 20, 14, 10); pen.fillStyle = "#222"; pen.font = "12px system-ui, sans-serif";
       pen.fillText("blade " + (k + 1), 28 + 62 * k, 30);
     });
-    if (current().models.some((m) => m.disk)) bar(wake ? 300 : 10, 240, l0.toFixed(3).replace("-", "−"), l1.toFixed(3), "dynamic inflow: λ [–], positive down");
+    if (current().models.some((m) => m.disk)) bar(wake ? 300 : 10, 240, text(l0, 3), text(l1, 3), "dynamic inflow: λ [–], positive down");
   }
   function draw() {
     const maneuver = current(), t = maneuver.time[state.frame];
