@@ -31,7 +31,9 @@ def body(inertia, gravity):
     core = _core.System.aircraft(json.dumps(data), setting((1.0, 340.0), True, coarse, gravity))
     rotor = core.rotor()
     room = {"linearised": lambda: _core.Linearised(core)}
-    return SimpleNamespace(core=core, layout=core.layout(), rotor=rotor, omega=rotor["omega"], has_free_speed=False, **room)
+    return SimpleNamespace(
+        core=core, layout=core.layout(), rotor=rotor, omega=rotor["omega"], has_free_speed=False, **room
+    )
 
 
 INPUTS = _core.Inputs([0.0] * 4, [0.0] * 4, 0.0, None, 0.0, 0.0, vacuum=True)
