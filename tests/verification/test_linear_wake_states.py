@@ -245,5 +245,5 @@ def test_without_a_periodic_orbit_it_is_refused_with_the_distance_from_one(monke
 def test_a_wake_that_its_states_do_not_hold_is_refused_with_what_they_miss():
     # at 40 kt they missed 15 %: the model was unstable at 48 to 116 rad/s, the flight is not
     start = trimmed("40 kt", wf.TimeMarchingWake, n_modes=5, turns=None, trailers=None)
-    with pytest.raises(wf.NumericalFailure, match="wake = states: .* miss 1[0-9.]+ % of it .allowed 5 %"):
+    with pytest.raises(wf.NumericalFailure, match=r"wake = states: .* miss 1[0-9.]+ % of it .allowed 5 %"):
         wf.linearize(start, wake="states")
