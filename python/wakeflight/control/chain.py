@@ -102,7 +102,6 @@ class Chain:
 
     def __init__(self, made: Augmentation, start: Start):
         self.members = [Member(each, start) for each in made.controllers]
-        self._all = list(range(len(self.members)))
         self._rated = [member for member in self.members if member.called is not None]
         self._measured = any(member.feedback.measures for member in self.members if member.feedback is not None)
         travel = list(start.aircraft.stick_travel_in)
@@ -137,19 +136,13 @@ class Chain:
         """Sticks that reach the blades over `piece`; begins: a coupling step begins with it. sense: what controllers may know."""
         t0, t1 = piece
         hands, self.hands = sticks.at(t0), sticks.at(t1)
-        due = self._due(t0, begins)
+        due = [k for k, member in enumerate(self.members) if member.due(t0, begins)]
         if due:
             self._ask(t0, due, hands, sense())
         self.pilot, before, after = self.core.advance(hands, self.hands, t1 - t0)
         if self.has_servos:
             return Ramp(t0, t1, before, after)
         return Added(sticks, self.core.offset, {t0: before, t1: after})
-
-    def _due(self, t: float, begins: bool) -> list[int]:
-        """Members that are asked at `t`; begins: a coupling step begins there."""
-        if not self._rated:
-            return self._all if begins else []
-        return [k for k, member in enumerate(self.members) if member.due(t, begins)]
 
     def _ask(self, t: float, due: list[int], hands: np.ndarray, sensors: Sensors) -> None:
         """All that are due at `t`: blocks in the core, the others one by one."""
