@@ -1,6 +1,6 @@
 """Inputs that engineers fly: shapes of the manoeuvres, recorded sticks, flights that begin beside their trim."""
 
-import time
+import sys
 
 import numpy as np
 import pytest
@@ -130,15 +130,38 @@ def test_a_record_about_trim_must_begin_there(tmp_path):
         wf.recorded_sticks(path, "hover")
 
 
+def _lines_run(work):
+    """Lines of Python that `work` runs, and what it returns: a cost that no other load of the machine changes."""
+    count = 0
+
+    def line(frame, event, argument):
+        nonlocal count
+        count += event == "line"
+        return line
+
+    before = sys.gettrace()
+    sys.settrace(lambda frame, event, argument: line)
+    try:
+        done = work()
+    finally:
+        sys.settrace(before)
+    return count, done
+
+
 def test_a_fine_record_costs_what_a_coarse_one_costs(tmp_path):
-    seconds = {}
+    seconds, found = 2.0, {}
     for rate in (20, 1000, 10000):
-        maneuver = wf.recorded_sticks(_record(tmp_path / f"{rate}.csv", rate, seconds=2.0))
-        begun = time.process_time()
-        wf.fly(START, maneuver, integrator="fixed")
-        seconds[rate] = time.process_time() - begun
-    # reading and checking 20 000 samples once is all that may be added
-    assert seconds[1000] < 2.5 * seconds[20] + 0.2 and seconds[10000] < 4.0 * seconds[20] + 0.5
+        maneuver = wf.recorded_sticks(_record(tmp_path / f"{rate}.csv", rate, seconds=seconds))
+        if not found:
+            # what a first flight imports
+            wf.fly(START, maneuver, integrator="fixed")
+        found[rate] = _lines_run(lambda flown=maneuver: wf.fly(START, flown, integrator="fixed").data)
+    # samples are read and checked once, which takes some forty lines; each asked for at every step would take hundreds
+    steps = found[20][1].sizes["time"]
+    assert steps > 300
+    for coarse, fine in ((20, 1000), (1000, 10000)):
+        more = 2 * seconds * (fine - coarse)
+        assert (found[fine][0] - found[coarse][0]) / more < steps / 4
 
 
 def test_files_of_manoeuvres_and_cases_name_records(tmp_path, capsys):
