@@ -82,8 +82,17 @@ def draw(found: dict[str, dict], path: Path) -> None:
     for k, name in enumerate(sorted(found, key=lambda name: found[name]["evaluations"])):
         cost = found[name]["evaluations"]
         axes.axvline(cost, color="0.85", lw=0.8, ls=":" if name == "reference" else "-", zorder=0)
-        axes.annotate(SHOWN.get(name, name), (cost, (2.2, 3.4)[k % 2]), fontsize=8, ha="center", va="bottom", annotation_clip=False)
-    axes.set(xlabel="evaluations of the sums in nine revolutions", ylabel="error against nine trailers at 15°, three turns")
+        axes.annotate(
+            SHOWN.get(name, name),
+            (cost, (2.2, 3.4)[k % 2]),
+            fontsize=8,
+            ha="center",
+            va="bottom",
+            annotation_clip=False,
+        )
+    axes.set(
+        xlabel="evaluations of the sums in nine revolutions", ylabel="error against nine trailers at 15°, three turns"
+    )
     cost = [each["evaluations"] for each in found.values()]
     axes.set(xlim=(0.75 * min(cost), 1.35 * max(cost)), ylim=(LEAST, 5.5))
     axes.grid(visible=True, axis="y", alpha=0.3)
