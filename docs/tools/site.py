@@ -41,15 +41,23 @@ SECTIONS: tuple[tuple[str, str, tuple[str, ...]], ...] = (
     (
         "Numerics",
         "numerics/",
-        ("flight-dynamics.md", "circulation.md", "full-span-wake.md", "wake-defaults.md", "convergence.md"),
+        ("wake-defaults.md", "convergence.md", "performance.md", "trim.md", "flight-dynamics.md", "circulation.md"),
     ),
     ("Reference", "reference/", ("command-line.md", "python.md", "results.md", "wake-options.md")),
     ("Validation", "validation/", ("index.md",)),
     (
         "The project",
         "",
-        ("results.md", "paper.md", "reliability.md", "reliability-inputs.md", "architecture.md", "dependencies.md")
-        + ("contributing.md", "changelog.md"),
+        (
+            "results.md",
+            "paper.md",
+            "reliability.md",
+            "reliability-inputs.md",
+            "architecture.md",
+            "dependencies.md",
+            "contributing.md",
+            "changelog.md",
+        ),
     ),
 )
 """Parts of the site: title, folder, the pages that come first in this order; other pages of the folder follow by name."""
