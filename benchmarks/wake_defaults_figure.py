@@ -12,9 +12,9 @@ from wake_defaults_table import read
 
 SHOWN = {
     "full-span": "full-span wake",
-    "equivalent": "equivalent, none (default)",
+    "equivalent": "equivalent, no sheet",
     "equivalent, sheet": "equivalent, sheet",
-    "max": "max, none",
+    "max": "max, no sheet",
 }
 MAPS = {
     "inflow": (-0.03, 0.08, r"inflow $\lambda$, down positive"),

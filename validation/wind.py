@@ -6,7 +6,7 @@ it, never instead of it.
 
 import wakeflight as wf
 
-DEFAULT = "default: one tip vortex of the equivalent strength"
+DEFAULT = "default: three trailers and shed vorticity"
 SHEET = "tip vortex of the largest circulation, inboard sheet"
 MAXIMUM = "tip vortex of the largest circulation alone"
 

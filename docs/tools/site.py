@@ -20,7 +20,7 @@ KEPT = ROOT / "target" / "docs-examples"
 LOG = logging.getLogger("mkdocs.hooks.wakeflight")
 
 SECTIONS: tuple[tuple[str, str, tuple[str, ...]], ...] = (
-    ("Start", "", ("index.md", "concepts.md")),
+    ("Start", "", ("index.md", "concepts.md", "linear-models.md")),
     (
         "How to",
         "guides/",
@@ -41,14 +41,23 @@ SECTIONS: tuple[tuple[str, str, tuple[str, ...]], ...] = (
     (
         "Numerics",
         "numerics/",
-        ("flight-dynamics.md", "circulation.md", "full-span-wake.md", "wake-defaults.md", "convergence.md"),
+        ("wake-defaults.md", "convergence.md", "performance.md", "trim.md", "flight-dynamics.md", "circulation.md"),
     ),
     ("Reference", "reference/", ("command-line.md", "python.md", "results.md", "wake-options.md")),
     ("Validation", "validation/", ("index.md",)),
     (
         "The project",
         "",
-        ("results.md", "paper.md", "architecture.md", "dependencies.md", "contributing.md", "changelog.md"),
+        (
+            "results.md",
+            "paper.md",
+            "reliability.md",
+            "reliability-inputs.md",
+            "architecture.md",
+            "dependencies.md",
+            "contributing.md",
+            "changelog.md",
+        ),
     ),
 )
 """Parts of the site: title, folder, the pages that come first in this order; other pages of the folder follow by name."""

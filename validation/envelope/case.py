@@ -145,7 +145,7 @@ def notes(found):
     return [f"{name_of(f)}: {f['failure']}" for f in found if f["failure"]]
 
 
-COLORS = {"dynamic": style.COLORS[0], "relaxation": style.COLORS[1], "time-marching": style.COLORS[2]}
+COLORS = {name: color for name, (color, _) in style.MODELS.items()}
 ROWS = (
     ("power", 1e-3, "power [kW]"),
     ("collective", 1.0, "collective [in]"),
