@@ -18,17 +18,21 @@ import numpy as np
 from ..errors import InputError, NumericalFailure
 from ..trim import Trim
 from .in_turn import alike, served
-from .marched import Cause, Orbit, causes_of
+from .marched import Answer, Cause, Orbit, causes_of
 from .multiblade import columns, transformation
 from .names import MOTION, Places
 from .realisation import FINE, Realisation, coefficients, filtered, realised
 from .sweeps import Driven, at_once
 
-COUNT = 28
-"""Laguerre functions; their pole is the rotor speed."""
+COUNTS = (28, 40, 56)
+"""Laguerre functions, of which the first number that is enough is taken; their pole is the rotor speed. At a time t they tell
+motion up to the frequency pole sqrt(2 count/(pole t) - 1): a slow flight, whose wake answers late, needs more."""
+ENOUGH = 0.03
+"""What they leave of the answers they are fitted to, over those, with which more are not tried: from 0.016 on (80 kt) more
+functions move responses by less than a per cent."""
 FITTED = 0.05
-"""What these leave of the answers they are fitted to, over those, at most: with 0.016 at 80 kt responses follow flights within a
-few per cent, with 0.15 (40 kt) blades and wake together are unstable in the model and not in flight."""
+"""The same beyond which the model is refused: with 0.15 (28 functions at 40 kt) blades and wake together are unstable in the
+model and not in flight."""
 
 
 @dataclass(frozen=True)
@@ -97,32 +101,50 @@ def _realised(
     orbit: Orbit, slow: list[Cause], known: tuple[list[Cause], np.ndarray], tolerance: float
 ) -> tuple[Realisation, float]:
     """The wake's answers to pulses less what is answered at once, as a system; what the fit leaves."""
-    omega, n_width = orbit.omega, known[1].shape[1]
-    dt = 2 * np.pi / omega / orbit.n
-    whole_pulse = orbit.pulse(np.arange(orbit.most * orbit.n * FINE + 1) / FINE)[0]
-    functions = filtered(omega, COUNT, dt, whole_pulse)
-    c = np.zeros((COUNT, orbit.n * n_width + 1, len(slow)))
-    left, whole = 0.0, 0.0
-    for i, (cause, answer) in enumerate(zip(slow, orbit.all_later(slow), strict=True)):
-        inflow, mean = answer.inflow, answer.mean
-        every = np.arange(mean.size)
-        value, rate = orbit.pulse(every)
-        inflow -= at_once(orbit, Driven.by(orbit, [cause], every, value[:, None], rate[:, None]), known, every)
-        inflow[1:] = (1.0 - orbit.late) * inflow[1:] + orbit.late * inflow[:-1]
-        for phase in range(orbit.passage):
-            at = every[phase :: orbit.passage]
-            by_row = np.stack([np.roll(inflow[k], k // orbit.passage, axis=0) for k in at])
-            fitted = coefficients(functions[at], by_row)
-            left += np.sum((by_row - np.tensordot(functions[at], fitted, 1)) ** 2) * cause.size**2
-            whole += np.sum(by_row**2) * cause.size**2
-            for blade in range(orbit.n_blades):
-                k = phase + blade * orbit.passage
-                c[:, k * n_width : (k + 1) * n_width, i] = fitted[:, blade]
-        c[:, -1, i] = coefficients(functions[every], mean)
+    later = [_later(orbit, cause, answer, known) for cause, answer in zip(slow, orbit.all_later(slow), strict=True)]
+    sizes = [cause.size for cause in slow]
+    for count in COUNTS:
+        c, misfit = _fitted(orbit, count, later, sizes)
+        if misfit < ENOUGH:
+            break
+    n_width = known[1].shape[1]
     weights = np.resize(orbit.model.area_weights, n_width) / orbit.n
     outputs = np.sqrt(np.append(np.tile(weights, orbit.n), 1.0))
     inputs = np.array([cause.unit(orbit.model) for cause in slow])
-    return realised(c, omega, tolerance, (outputs, inputs)), float(np.sqrt(left / whole))
+    return realised(c, orbit.omega, tolerance, (outputs, inputs)), misfit
+
+
+def _later(
+    orbit: Orbit, cause: Cause, answer: Answer, known: tuple[list[Cause], np.ndarray]
+) -> tuple[np.ndarray, np.ndarray]:
+    """What a pulse of the cause is answered later: inflow (steps, n_blades, n_width) by rows instead of blades, and mean."""
+    inflow, every = answer.inflow, np.arange(answer.mean.size)
+    value, rate = orbit.pulse(every)
+    inflow -= at_once(orbit, Driven.by(orbit, [cause], every, value[:, None], rate[:, None]), known, every)
+    inflow[1:] = (1.0 - orbit.late) * inflow[1:] + orbit.late * inflow[:-1]
+    return np.stack([np.roll(each, k // orbit.passage, axis=0) for k, each in enumerate(inflow)]), answer.mean
+
+
+def _fitted(
+    orbit: Orbit, count: int, later: list[tuple[np.ndarray, np.ndarray]], sizes: list[float]
+) -> tuple[np.ndarray, float]:
+    """Coefficients c (count, lambdas, causes) of so many functions, and what they leave of the answers, over those."""
+    steps, n_width = later[0][1].size, later[0][0].shape[2]
+    whole_pulse = orbit.pulse(np.arange((steps - 1) * FINE + 1) / FINE)[0]
+    functions = filtered(orbit.omega, count, 2 * np.pi / orbit.omega / orbit.n, whole_pulse)
+    c = np.zeros((count, orbit.n * n_width + 1, len(later)))
+    left, whole = 0.0, 0.0
+    for i, ((inflow, mean), size) in enumerate(zip(later, sizes, strict=True)):
+        for phase in range(orbit.passage):
+            by_row, of_phase = inflow[phase :: orbit.passage], functions[phase :: orbit.passage]
+            fitted = coefficients(of_phase, by_row)
+            left += np.sum((by_row - np.tensordot(of_phase, fitted, 1)) ** 2) * size**2
+            whole += np.sum(by_row**2) * size**2
+            for blade in range(orbit.n_blades):
+                k = phase + blade * orbit.passage
+                c[:, k * n_width : (k + 1) * n_width, i] = fitted[:, blade]
+        c[:, -1, i] = coefficients(functions, mean)
+    return c, float(np.sqrt(left / whole))
 
 
 def _turned(orbit: Orbit, cause: Cause, k: int) -> float:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import io
 from collections.abc import Mapping
 from pathlib import Path
@@ -10,8 +11,10 @@ from typing import TYPE_CHECKING
 
 from ..arguments import checked
 from ..atomic import written
+from ..text import is_file
 from .attributes import flat_attributes
-from .reading import DIGEST, digest, of_kind, opened, seal
+from .errors import ResultsError
+from .reading import DIGEST, digest, of_kind, opened, seal, sealed
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -105,8 +108,14 @@ def load(path: str | Path, kind: str | None = None) -> xr.Dataset:
 
 def finished(path: Path) -> bool:
     """Whether there is a result that came to its end."""
+    import h5py
     import xarray as xr
 
+    with contextlib.suppress(ResultsError, OSError):
+        # what has the bytes it was written with need not be read through for one attribute
+        if is_file(path) and sealed(path):
+            with h5py.File(path, "r") as head:
+                return bool(head.attrs.get("finished", 0))
     try:
         with xr.open_dataset(path, engine="h5netcdf") as data:
             return bool(data.attrs.get("finished", 0))

@@ -49,14 +49,15 @@ def seal(stream: BinaryIO) -> None:
     stream.write(SEAL + _summed(iter(lambda: stream.read(1 << 20), b"")))
 
 
-def _check_seal(path: Path) -> None:
-    """Refuse a file whose bytes are not those it was written with; one without a seal is another program's or an older one."""
+def sealed(path: Path) -> bool:
+    """Whether a file has a seal, which those of other programs and older ones lack; refused where other bytes were sealed."""
     with path.open("rb") as stream:
         left = max(path.stat().st_size - _SEALED, 0)
         found = _summed(iter(lambda: stream.read(min(1 << 20, left - stream.tell())), b""))
         end = stream.read(_SEALED)
     if end.startswith(SEAL) and end != SEAL + found:
         raise ResultsError(f"{_told(path)}: damaged or changed: its bytes are not those it was written with")
+    return end.startswith(SEAL)
 
 
 def _summed(parts: Iterable[bytes | memoryview]) -> bytes:
@@ -81,7 +82,7 @@ def opened(path: Path) -> xr.Dataset:
     size = path.stat().st_size
     if size == 0:
         raise ResultsError(f"{_told(path)}: the file is empty: the program that wrote it was stopped")
-    _check_seal(path)
+    sealed(path)
     try:
         # no HDF5, or one without a head, is refused here: deeper down it would be told on the standard error as well
         with h5py.File(path, "r") as head:
