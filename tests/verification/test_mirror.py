@@ -117,6 +117,30 @@ def test_right_is_right_for_a_clockwise_helicopter(twins, augmented):
         assert np.abs(one - other).max() < 1e-6 * np.abs(one).max(), name
 
 
+@pytest.mark.parametrize("kind", ["gust", "slanting gust", "field"])
+def test_a_wind_that_differs_from_place_to_place_is_mirrored(twins, kind):
+    def field(side):
+        def blows(points, time):
+            x, y, _ = points.T
+            return np.stack([0.05 * side * y, side * 0.05 * x + 0.1 * y, 0.1 * side * y], axis=1)
+
+        return blows
+
+    def wind(side):
+        if kind == "field":
+            return field(side)
+        toward = 0 if kind == "gust" else 30 * side
+        return wf.Gust(amplitude="5 m/s", length="30 m", ahead="2 m", toward=f"{toward} deg", direction=f"{90 * side} deg")
+
+    twin, image = (
+        rolled(aircraft.with_rigid_blades(), side, inches=0.3, wind=wind(side))
+        for aircraft, side in zip(twins, (1, -1), strict=True)
+    )
+    for name in ("p", "q", "r", "v", "w"):
+        one, other = mirrored(name, twin[name].values), image[name].values
+        assert np.abs(one - other).max() < 1e-9 * np.abs(one).max(), name
+
+
 def test_a_clockwise_helicopter_follows_a_bank_to_the_right(twins):
     start = wf.trim(twins[1].with_rigid_blades(), wf.FlightCondition(speed="60 kt"), inflow="dynamic")
     path = wf.follow(bank=[("0 s", "0 deg"), ("1.5 s", "15 deg")])
