@@ -96,7 +96,9 @@ def test_the_mirror_image_of_the_mirror_image_is_the_aircraft(twins):
 def rolled(aircraft, side, *, inches, **options):
     """A second from trim, to the right (side 1) or to the left."""
     start = wf.trim(aircraft, inflow="dynamic")
-    return wf.fly(start, wf.step("lateral", f"{side * inches} in", at="0.1 s", seconds="1 s"), integrator="fixed", **options).data
+    return wf.fly(
+        start, wf.step("lateral", f"{side * inches} in", at="0.1 s", seconds="1 s"), integrator="fixed", **options
+    ).data
 
 
 @pytest.mark.parametrize("augmented", [False, True])
@@ -130,7 +132,9 @@ def test_a_wind_that_differs_from_place_to_place_is_mirrored(twins, kind):
         if kind == "field":
             return field(side)
         toward = 0 if kind == "gust" else 30 * side
-        return wf.Gust(amplitude="5 m/s", length="30 m", ahead="2 m", toward=f"{toward} deg", direction=f"{90 * side} deg")
+        return wf.Gust(
+            amplitude="5 m/s", length="30 m", ahead="2 m", toward=f"{toward} deg", direction=f"{90 * side} deg"
+        )
 
     twin, image = (
         rolled(aircraft.with_rigid_blades(), side, inches=0.3, wind=wind(side))
@@ -150,7 +154,8 @@ def test_a_clockwise_helicopter_follows_a_bank_to_the_right(twins):
 
 def test_a_clockwise_helicopter_has_the_handling_qualities_of_its_twin(twins):
     one, other = (
-        wf.handling_qualities(wf.linearize(wf.trim(aircraft.with_rigid_blades(), inflow="dynamic"))).table() for aircraft in twins
+        wf.handling_qualities(wf.linearize(wf.trim(aircraft.with_rigid_blades(), inflow="dynamic"))).table()
+        for aircraft in twins
     )
     bandwidth = [[line.split() for line in table.splitlines() if ".bandwidth " in line] for table in (one, other)]
     assert bandwidth[0] == bandwidth[1] and len(bandwidth[0]) == 3
