@@ -113,3 +113,10 @@ def test_heights_that_are_none_are_refused_by_name(rigid):
             wf.FlightCondition(speed="0 kt", height=height)
     with pytest.raises(wf.InputError, match="far_wake = 'cylinder'"):
         wf.trim(rigid, hover(1.0), inflow=wf.RelaxationWake(far_wake="cylinder"))
+
+
+def test_a_hub_so_low_that_the_airframe_is_in_the_ground_is_refused(rigid):
+    with pytest.raises(wf.InputError, match=r"height = '1 m': must be above 1\.803 m"):
+        wf.trim(rigid, wf.FlightCondition(speed="0 kt", height="1 m"), inflow="dynamic")
+    low = wf.trim(rigid, wf.FlightCondition(speed="0 kt", height="1.9 m"), inflow="dynamic")
+    assert wf.Simulation(low).t == 0.0
