@@ -252,7 +252,7 @@ def turning_core(model: CompiledRotor, corners: Corners) -> _core.System:
 
 
 def _check_clearance(data: dict[str, Any], height: float) -> None:
-    """Refuse a hub so low that its airframe, level, is in the ground: origin, tail rotor, tail surfaces, as a flight counts them."""
+    """Refuse a hub so low that its airframe, level, is in the ground with its origin, tail rotor or tail surfaces."""
     parts = [data[name] for name in ("tail_rotor", "stabilator", "fin")]
     lowest = max([0.0, *(part["position"][2] for part in parts if part)])
     reach = lowest - data["rotor"]["position"][2]
