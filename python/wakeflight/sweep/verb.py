@@ -55,7 +55,7 @@ def plain(value: Any) -> Any:
 
 
 def kept_of(keep: Any, dims: tuple[str, ...] | None, known: Collection[str] = ()) -> Kept:
-    """Variables by names, `all`, or by their dimensions; known: names that there are, none where that shows when a case is run."""
+    """Variables by names, `all`, or by their dimensions; known: names that there are, none where a case must be run to know."""
     if keep == "all":
         return Kept()
     if keep is not None:
