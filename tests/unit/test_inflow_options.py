@@ -114,9 +114,9 @@ def test_a_step_that_does_not_divide_says_which_do():
     ):
         check_azimuth_step(math.radians(10.0), 5)
     check_azimuth_step(math.radians(10.2857142857), 7)
-    with pytest.raises(InputError, match="'10.285714 deg': must divide .* nearest are .*10.2857142857 deg"):
+    with pytest.raises(InputError, match=r"'10.285714 deg': must divide .* nearest are .*10.2857142857 deg"):
         check_azimuth_step(math.radians(10.285714), 7)
-    with pytest.raises(InputError, match="'40 deg': must divide 51.4286 deg .* nearest are 25.7142857143 deg$"):
+    with pytest.raises(InputError, match=r"'40 deg': must divide 51.4286 deg .* nearest are 25.7142857143 deg$"):
         check_azimuth_step(math.radians(40.0), 7)
 
 
