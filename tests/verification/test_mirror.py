@@ -8,6 +8,7 @@ import pytest
 
 import wakeflight as wf
 from wakeflight.aircraft import core_data
+from wakeflight.attitude import quaternion_of
 from wakeflight.model import ROLL, YAW
 from wakeflight.trim.limits import tail_flow
 
@@ -166,3 +167,17 @@ def test_a_clockwise_rotor_on_the_stand_is_its_twin():
     aircraft = wf.load_aircraft("uh60a")
     one, other = (wf.tunnel(each, "8 deg", speed="80 kt", inflow="dynamic") for each in (aircraft, aircraft.mirrored()))
     assert (one.ct, one.cq, one.beta_1s) == (other.ct, other.cq, other.beta_1s)
+
+
+def test_a_mirrored_aircraft_touches_the_ground_with_its_mirrored_places(twins):
+    aside, heights = {"stabilator.position": ["700 in", "40 in", "230 in"]}, {}
+    for aircraft, side in zip(twins, (1.0, -1.0), strict=True):
+        varied = aircraft.with_rigid_blades().with_(aside)
+        start = wf.trim(varied, wf.FlightCondition(speed="0 kt", height="30 ft"), inflow="dynamic")
+        y = start.state(0.0)
+        for bank in (0.6, -0.6):
+            y[6:10] = quaternion_of(side * bank, 0.1, 0.0)
+            heights.setdefault(bank, []).append(start.model.core.least_height(y))
+    assert all(one == pytest.approx(other, abs=1e-9) for one, other in heights.values())
+    # banked to its side it is lower
+    assert heights[0.6][0] < heights[-0.6][0] - 0.1

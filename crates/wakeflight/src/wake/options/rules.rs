@@ -241,7 +241,8 @@ impl WakeOptions {
             "near_wake_angle",
             || degrees(self.near_wake_angle),
             || {
-                let near = (self.near_wake_angle / self.delta_psi()).round().max(1.0) * self.azimuth_step.to_degrees();
+                let near = (self.near_wake_angle / self.delta_psi()).round().max(1.0)
+                    * self.azimuth_step.to_degrees();
                 let digits = format!("{near:.9}");
                 format!("{}, such as {} deg", steps(), digits.trim_end_matches('0').trim_end_matches('.'))
             },
