@@ -12,7 +12,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from .errors import InputError, NumericalFailure
+from .errors import InputError, NumericalFailure, WakeflightError, one_line, said
 from .rotor_speed import CONSTANT, OVER_GROUND, Corners, RotorSpeed, as_text, history
 from .units import number, quantity
 
@@ -53,7 +53,13 @@ class Engine:
         """Torque [N m] and share of the fuel over a coupling step, checked."""
         if self.governed:
             return 0.0, self.fuel(t)
-        torque = self.torque(t, dt, rotor_speed, collective)
+        try:
+            torque = self.torque(t, dt, rotor_speed, collective)
+        except WakeflightError:
+            raise
+        except Exception as reason:
+            what = one_line(said(reason))
+            raise NumericalFailure(f"torque of {type(self).__name__} at t = {t:.4f} s: {what}") from reason
         try:
             found = float(torque)
         except (TypeError, ValueError):

@@ -98,6 +98,11 @@ class Interrupted(WakeflightError):
         self.partial = partial
 
 
+def said(reason: Exception) -> str:
+    """An error of a user's code in words."""
+    return str(reason) if type(reason) is ValueError else f"{type(reason).__name__}: {reason}"
+
+
 def one_line(text: object) -> str:
     """`text` with line breaks and runs of blanks made single blanks, and what cannot be printed written as its escape.
 

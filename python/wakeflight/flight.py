@@ -264,7 +264,7 @@ class Flying:
         except GroundContact as reason:
             failure, ending = f"flight of {self.maneuver.name} ended: {reason}", GroundContact
         except (NumericalFailure, ArithmeticError, np.linalg.LinAlgError) as reason:
-            revolution = (recorder.n_recorded - 1) / per_revolution
+            revolution = max(recorder.n_recorded - 1, 0) / per_revolution
             failure = f"flight of {self.maneuver.name} stopped in revolution {revolution:.2f}: {reason}"
         if signalled is not None:
             at = f"t = {sim.t:.4f} s, revolution {sim.steps / per_revolution:.2f}"

@@ -63,6 +63,8 @@ LARGEST = np.array([most for _, most in OBSERVED.values()], dtype=np.float32)
 PLACE = {name: k for k, name in enumerate(OBSERVED)}
 """Where in an observation."""
 
+OPTIONS = ("condition", "upset")
+"""What `reset` takes."""
 UPSET = {"u": 2.0, "v": 2.0, "w": 2.0, "p": 0.1, "q": 0.1, "r": 0.1, "roll": 0.1, "pitch": 0.1, "yaw": 0.1}
 """What a flight may begin away from its trim by, times the environment's `upset` [m/s, rad/s, rad]."""
 
@@ -153,6 +155,9 @@ class HelicopterEnv(gymnasium.Env[np.ndarray, np.ndarray]):
         """Begin a flight, upset from its trim as the seed has it."""
         super().reset(seed=seed)
         options = options or {}
+        for name in options:
+            if name not in OPTIONS:
+                raise InputError.choice("options", name, OPTIONS)
         k = options.get("condition", int(self.np_random.integers(len(self._bank))))
         if k not in range(len(self._bank)):
             raise InputError.of("condition", k, f"must lie between 0 and {len(self._bank) - 1}")
@@ -165,7 +170,10 @@ class HelicopterEnv(gymnasium.Env[np.ndarray, np.ndarray]):
 
     def step(self, action: np.ndarray) -> tuple[np.ndarray, float, bool, bool, dict[str, Any]]:
         """Fly `dt` with the sticks on their way to `action`."""
-        shares = np.asarray(action, dtype=float)
+        try:
+            shares = np.asarray(action, dtype=float)
+        except (TypeError, ValueError):
+            shares = np.empty(0)
         if shares.shape != (4,) or not np.isfinite(shares).all():
             raise InputError.of("action", action, "must be four finite numbers between -1 and 1")
         shares = np.clip(shares, -1.0, 1.0)

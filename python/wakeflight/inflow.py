@@ -47,7 +47,9 @@ def check_azimuth_step(step: float, n_blades: int | None = None, field: str = "a
     if not math.radians(0.1) <= step <= math.radians(45.0):
         raise InputError.of(field, f"{degrees:.6g} deg", allowed + ", from 0.1 to 45 deg")
     if abs(between / degrees - round(between / degrees)) > 1e-9 * between / degrees:
-        raise InputError.of(field, f"{degrees:.6g} deg", allowed)
+        finer = math.floor(between / degrees) + 1
+        near = " or ".join(f"{between / parts:.12g} deg" for parts in (finer, finer - 1) if 45.0 * parts >= between)
+        raise InputError.of(field, f"{degrees:.12g} deg", f"{allowed}: nearest are {near}")
 
 
 class Inflow:

@@ -13,6 +13,7 @@ import numpy as np
 from . import _core
 from .aircraft import Aircraft
 from .condition import CompleteCondition, Target
+from .errors import InputError
 from .inflow import Flown, Inflow, InflowModel, RelaxationWake
 from .monitors import Bounds, bounds
 from .results import disk
@@ -250,6 +251,16 @@ def turning_core(model: CompiledRotor, corners: Corners) -> _core.System:
     return model.core.with_rotor_speed([(t, share * model.omega) for t, share in corners])
 
 
+def _check_clearance(data: dict[str, Any], height: float) -> None:
+    """Refuse a hub so low that its airframe, level, is in the ground with its origin, tail rotor or tail surfaces."""
+    parts = [data[name] for name in ("tail_rotor", "stabilator", "fin")]
+    lowest = max([0.0, *(part["position"][2] for part in parts if part)])
+    reach = lowest - data["rotor"]["position"][2]
+    if height <= reach:
+        allowed = f"must be above {reach:.4g} m, by which the hub is above the lowest place of the airframe that counts"
+        raise InputError.of("height", f"{height:g} m", allowed)
+
+
 @dataclass(frozen=True)
 class Model(CompiledRotor):
     """Aircraft, condition and inflow model compiled into F(y_dot, y, u; t) = 0."""
@@ -296,6 +307,7 @@ class Model(CompiledRotor):
         chosen = setting((density, speed_of_sound), not inflow.is_dynamic, resolved, lift=lift, **inflow.sections)
         core = _core.System.aircraft(json.dumps(data), chosen)
         if condition.height is not None:
+            _check_clearance(data, condition.height)
             core = core.above_ground(condition.height)
         return cls(aircraft, condition, inflow, core, data, density, speed_of_sound, target, n_harmonics)
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from .arguments import checked
 from .control import Augmentation, augmentation
-from .errors import InputError
+from .errors import InputError, NumericalFailure
 from .flight import Flight, Flying
 from .flight_folder import INCOMPLETE, RUN, Kept, RunFolder
 from .flight_input import FlightInput
@@ -248,7 +248,10 @@ class Comparison:
 @reporting
 @checked
 def rerun(path: str | Path, progress: Reported = None, control: Any = None) -> Comparison:
-    """Fly the input that a run's file carries once more and compare, bit by bit; control: as for `resume`."""
+    """Fly the input that a run's file carries once more and compare, bit by bit; control: as for `resume`.
+
+    Of a run that was ended by a failure (contact with the ground is one) it is what was flown until then.
+    """
     progress = heard(progress)
     data = load(path)
     text = data.attrs.get("input")
@@ -258,7 +261,12 @@ def rerun(path: str | Path, progress: Reported = None, control: Any = None) -> C
     given = FlightInput.from_text(text, path, _given(control))
     start = given.asked.trim(given.aircraft, progress)
     again = FlightInput.of(given.aircraft, given.asked, given.plan)
-    flight = Flying(start, again, progress).go()
+    try:
+        flight = Flying(start, again, progress).go()
+    except NumericalFailure as reason:
+        if not data.attrs.get("failure") or reason.partial is None:
+            raise
+        flight = reason.partial
     told = tuple(
         f"{name.replace('_', ' ')}: {before} then, {now} now"
         for name, before, now in _circumstances(given.made, again.made)

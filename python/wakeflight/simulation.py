@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 
 from .arguments import checked
-from .attitude import euler_angles
+from .attitude import axes, euler_angles
 from .control import Augmentation, Chain, Sensors, augmentation
 from .engine import Engine, Turning, turning
 from .errors import GroundContact, InputError, NumericalFailure, known
@@ -207,9 +207,10 @@ class Simulation(Stepping):
         self._blow()
         height = self.model.core.least_height(self._y)
         if height is not None and height < 0.0:
-            raise GroundContact(
-                f"contact with the ground at t = {t:.4f} s, {self.state.velocity[2]:.2f} m/s down in body axes"
-            )
+            u, v, w, *_ = first = self._y[:10].tolist()
+            x, y, z = axes(first[6:])[2]
+            sinking = x * u + y * v + z * w
+            raise GroundContact(f"contact with the ground at t = {t:.4f} s, sinking at {sinking:.2f} m/s")
 
     def _follow_rotor(self, t: float) -> None:
         if not self.model.has_free_speed:

@@ -12,6 +12,7 @@ from wakeflight.results import frames
 
 CONDITION = wf.FlightCondition(speed="80 kt", flight_path="0 deg")
 HANDS = wf.step("lateral", "0.3 in", at="0.05 s", seconds="0.2 s")
+LEFT = wf.step("lateral", "-0.3 in", at="0.05 s", seconds="0.2 s")
 
 
 @pytest.fixture(scope="module", params=["uh60a", "bo105"])
@@ -31,9 +32,9 @@ def test_the_tables_give_the_lift_that_was_recorded(flown):
 
 def test_a_clockwise_rotor_has_the_loads_of_its_mirror_image():
     aircraft, found = wf.load_aircraft("uh60a").with_rigid_blades(), []
-    for each in (aircraft, aircraft.mirrored()):
+    for each, hands in ((aircraft, HANDS), (aircraft.mirrored(), LEFT)):
         start = wf.trim(each, CONDITION, inflow="dynamic")
-        found.append(wf.blade_loads(wf.fly(start, HANDS, revolutions=1, integrator="fixed").data))
+        found.append(wf.blade_loads(wf.fly(start, hands, revolutions=1, integrator="fixed").data))
     # the trims differ by the rounding of half a turn
     for name in ("up_force", "in_plane_force", "section_moment", "pitch_section", "flap_displacement"):
         twin, image = (each[name].values for each in found)
@@ -98,6 +99,8 @@ def test_bank_and_load_factor_are_there(flown):
     np.testing.assert_array_equal(run.bank, run["roll"])
     assert float(start.to_dataset().bank) == start.roll
     assert wf.load_factor(run)[0] == pytest.approx(1.0, abs=0.01)
+    with pytest.raises(wf.InputError, match="must be the Dataset of a flight"):
+        wf.load_factor(start.to_dataset())
 
 
 @pytest.fixture(scope="module")

@@ -54,8 +54,22 @@ def test_a_torque_that_is_no_number_ends_the_flight(bad):
 
     with pytest.raises(wf.NumericalFailure, match=r"Bad at t = 0.2000 s"):
         Bad().given(0.2, 0.01, 27.0, 0.1)
-    with pytest.raises(NotImplementedError, match="must define torque"):
+    with pytest.raises(
+        wf.NumericalFailure, match=r"torque of Engine at t = 0.2000 s: NotImplementedError: Engine must define torque"
+    ):
         wf.Engine().given(0.2, 0.01, 27.0, 0.1)
+
+
+def test_an_engine_that_raises_ends_the_flight_by_name():
+    class Short(wf.Engine):
+        def torque(self, t, dt):
+            return 1.0
+
+    with pytest.raises(
+        wf.NumericalFailure, match=r"torque of Short at t = 0.2000 s: TypeError: .* takes 3 positional"
+    ) as stop:
+        Short().given(0.2, 0.01, 27.0, 0.1)
+    assert "\n" not in str(stop.value)
 
 
 def test_a_clock_of_a_free_speed_ends_steps_where_the_rotor_has_turned_by_them():

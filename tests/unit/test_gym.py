@@ -93,7 +93,7 @@ def test_numbers_that_end_it_terminate_and_say_why(env, monkeypatch):
     assert "left the rotor" in info["failure"] and observation in env.observation_space
 
 
-@pytest.mark.parametrize("action", [[0, 0, 0], [0, 0, 0, np.nan], [[0, 0, 0, 0]]])
+@pytest.mark.parametrize("action", [[0, 0, 0], [0, 0, 0, np.nan], [[0, 0, 0, 0]], "up", [0, 0, "up", 0]])
 def test_actions_that_are_none_are_refused(env, action):
     env.reset(seed=0)
     with pytest.raises(wf.InputError, match="action"):
@@ -108,7 +108,11 @@ def test_options_that_cannot_be_are_refused(env):
     ):
         with pytest.raises(wf.InputError, match=named):
             wf.gym.HelicopterEnv(**options)
-    for options, named in (({"condition": 5}, "condition"), ({"upset": -1.0}, "upset")):
+    for options, named in (
+        ({"condition": 5}, "condition"),
+        ({"upset": -1.0}, "upset"),
+        ({"upst": 0.0}, "did you mean upset"),
+    ):
         with pytest.raises(wf.InputError, match=named):
             env.reset(options=options)
 

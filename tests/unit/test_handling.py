@@ -91,6 +91,8 @@ def test_every_quantity_is_a_number_or_has_a_reason(hover_and_forward):
                 if not values.dims or values.dims == ("axis",):
                     assert np.isfinite(found[full]) != (full in found.reasons), full
         assert "roll.bandwidth" in found.table() and found.data["w_180"].attrs["units"] == "rad/s"
+        for each in (*found.data.data_vars.values(), *found.responses.data_vars.values()):
+            assert each.attrs["units"] and each.attrs["long_name"]
 
 
 def test_the_bare_uh60a_rolls_as_it_should(hover_and_forward):

@@ -19,6 +19,7 @@ from wakeflight.inflow import (
     DynamicInflow,
     RelaxationWake,
     TimeMarchingWake,
+    check_azimuth_step,
     inflow_model,
     like,
     trim_model,
@@ -104,6 +105,19 @@ def test_the_step_divides_the_angle_between_blades():
         TimeMarchingWake(azimuth_step="9 deg").resolved("forward").core_options(aircraft)
     with pytest.raises(InputError, match="turns"):
         TimeMarchingWake(turns=4.01).resolved("forward").core_options(aircraft)
+
+
+def test_a_step_that_does_not_divide_says_which_do():
+    with pytest.raises(
+        InputError,
+        match=r"azimuth_step = '10 deg': must divide 72 deg \(5 blades\): nearest are 9 deg or 10.2857142857 deg",
+    ):
+        check_azimuth_step(math.radians(10.0), 5)
+    check_azimuth_step(math.radians(10.2857142857), 7)
+    with pytest.raises(InputError, match=r"'10.285714 deg': must divide .* nearest are .*10.2857142857 deg"):
+        check_azimuth_step(math.radians(10.285714), 7)
+    with pytest.raises(InputError, match=r"'40 deg': must divide 51.4286 deg .* nearest are 25.7142857143 deg$"):
+        check_azimuth_step(math.radians(40.0), 7)
 
 
 def test_names_are_models_and_models_are_themselves():

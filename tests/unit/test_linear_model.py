@@ -87,6 +87,10 @@ def test_matrices_carry_names_and_units():
     assert model.A.dims == ("state", "state_") and model.B.dims == ("state", "input")
     assert model.C.dims == ("output", "state") and model.D.dims == ("output", "input")
     assert model.B["input"].values.tolist() == ["lateral"] and model.B["input_units"].values.tolist() == ["in"]
+    for each in (model.A, model.B, model.C, model.D, *model.to_dataset().data_vars.values()):
+        assert each.attrs["long_name"], each.name
+    answer = model.response([0.0, 1.0], {"lateral": [0.0, 1.0]})
+    assert all(each.attrs["units"] and each.attrs["long_name"] for each in answer.variables.values())
 
 
 def test_a_lag_answers_as_it_must():
@@ -153,6 +157,7 @@ def test_what_cannot_be_answered_is_refused_by_name():
         (lambda: model.frequency_response([2.0, 1.0]), "ascending"),
         (lambda: model.response([0.0, 1.0, 3.0], {}), "equally spaced"),
         (lambda: model.response([0.0, 1.0], {"lateral": [1.0]}), "lateral"),
+        (lambda: model.response([0.0, 1.0], np.zeros((2, 4))), "inputs = 'ndarray': must be histories by name"),
         (lambda: model.reduce("small"), "order"),
         (lambda: model.reduce(10), "lie between"),
         (lambda: model.reduce(("u", "beta")), "beta"),

@@ -14,6 +14,11 @@ from wakeflight.aircraft.versions import groups_of
 SHIPPED = Path(str(resources.files("wakeflight.aircraft")))
 VERSION_1 = Path(__file__).parent / "data" / "version-1"
 
+TO_THE_RIGHT = (
+    ("[-1.590228, 0.0, 0.250330, 0.0]", "[1.590228, 0.0, 0.250330, 0.0]"),
+    ("[7.973828, -9.728045,", "[-7.928452, -9.728045,"),
+)
+"""The rigging of the UH-60A with a lateral stick that rolls a clockwise rotor to its side."""
 TAIL = '[[rotor]]\nname = "tail"\nmodel = "closed-form"\n'
 
 
@@ -80,7 +85,10 @@ def test_a_rigid_rotor_is_a_model_of_the_list(tmp_path):
 
 
 def test_the_sense_of_rotation_is_read_and_goes_to_the_core(tmp_path):
-    clockwise = wf.load_aircraft(uh60a(tmp_path, ('rotation = "ccw"', 'rotation = "cw"')))
+    turned = ('rotation = "ccw"', 'rotation = "cw"')
+    with pytest.raises(wf.InputError, match="lateral right must raise theta_1c of a clockwise rotor"):
+        wf.load_aircraft(uh60a(tmp_path / "left", turned))
+    clockwise = wf.load_aircraft(uh60a(tmp_path, turned, *TO_THE_RIGHT))
     assert clockwise.core_data()["rotor"]["rotation"] == "cw"
     assert wf.load_aircraft("uh60a").core_data()["rotor"]["rotation"] == "ccw"
 

@@ -162,8 +162,10 @@ def test_a_table_keeps_what_is_asked_for():
     table = wf.sweep("trim", cases, workers=1, keep=["power", "inflow"], **FLAT)
     assert set(table.data_vars) == {"power", "inflow", "failure", "warnings"}
     assert table.inflow.dims == ("speed", "azimuth", "station")
-    unknown = wf.sweep("trim", cases, workers=1, keep="powr", **FLAT)
-    assert "did you mean power" in str(unknown.failure.values[0])
+    # what no trim has is refused before the first is run
+    with pytest.raises(wf.InputError, match="keep = 'powr': did you mean power"):
+        wf.sweep("trim", cases, workers=1, keep="powr", **FLAT)
+    assert wf.sweep("trim", cases, workers=1, keep=["azimuth", "inflow"], **FLAT).sizes["azimuth"] > 1
 
 
 # --- engines -----------------------------------------------------------------------------------------------------------
@@ -235,6 +237,16 @@ def test_flights_and_stands_are_swept():
         blades="rigid",
     )
     assert stand.ct[1] > stand.ct[0] > 0.0
+
+
+def test_blades_of_a_case_are_those_of_the_aircraft_for_linear_models_too():
+    table = wf.sweep(
+        wf.linearize, wf.grid(speed=["60 kt"], blades=["rigid", "flexible"]), workers=1, order=8, keep=["A"], **FLAT
+    )
+    assert not any(table.failure.values.ravel()) and np.isfinite(table.A.values).all()
+    assert not np.allclose(table.A.values[0, 0], table.A.values[0, 1])
+    with pytest.raises(wf.InputError, match="blades = 'individual': allowed: rigid, flexible"):
+        wf.sweep(wf.linearize, wf.grid(speed=["60 kt"], blades=["individual"]), workers=1, **FLAT)
 
 
 def test_derivatives_over_speed_are_one_call():

@@ -55,3 +55,24 @@ def test_a_flight_in_wind_carries_it_and_is_flown_again_to_the_bit():
     own = wf.fly(start, nothing, revolutions=0.2, integrator="fixed", wind=lambda points, t: 0.0 * points).data
     with pytest.raises(wf.InputError, match="in no file"):
         FlightInput.from_text(own.attrs["input"])
+
+
+def raising(points, t):
+    if t > 0.05:
+        raise KeyError("no air")
+    return 0.0 * points
+
+
+def test_a_function_that_raises_ends_the_flight_by_name_and_keeps_it():
+    start = wf.trim(wf.load_aircraft("uh60a").with_rigid_blades(), wf.FlightCondition(speed="60 kt"), inflow="dynamic")
+    nothing = wf.Maneuver("nothing", {}, seconds=0.2)
+    with pytest.raises(wf.NumericalFailure, match=r"wind raising at t = 0.05.* s: KeyError: 'no air'") as stop:
+        wf.fly(start, nothing, integrator="fixed", wind=raising)
+    assert stop.value.partial.data.sizes["time"] > 5
+    for wrong, told in (
+        (lambda points: points, "wind .*<lambda> at t = 0.0000 s: TypeError"),
+        (lambda points, t: "calm", "calm"),
+    ):
+        with pytest.raises(wf.NumericalFailure, match=told) as stop:
+            wf.fly(start, nothing, integrator="fixed", wind=[wf.SteadyWind("3 kt"), wrong])
+    assert "in revolution -" not in str(stop.value)

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """Ground: no air through it, hover near it against what is published, nothing of it far above, a stop that has a name."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -86,13 +88,18 @@ def test_no_air_goes_through_the_ground(rigid, pedal):
     assert np.abs(velocity @ normal).max() < 1e-13 * speed
 
 
-def test_a_flight_that_reaches_the_ground_ends_by_name(rigid):
+def test_a_flight_that_reaches_the_ground_ends_by_name(rigid, tmp_path):
     start = wf.trim(rigid, hover(0.7), inflow="dynamic")
     drop = wf.Maneuver("drop", (("collective", ((0.1, 0.0), (0.3, -3.0))),), seconds=5.0)
     with pytest.raises(wf.GroundContact, match="flight of drop ended: contact with the ground at t = ") as stop:
         wf.fly(start, drop, integrator="fixed")
     run = stop.value.partial.data
     assert 0.5 < float(run.time[-1]) < 4.0 and float(run.down[-1]) > 2.0
+    sinking = float(re.search(r"sinking at ([0-9.]+) m/s", str(stop.value))[1])
+    assert sinking == pytest.approx(float(run.down[-1] - run.down[-2]) / float(run.time[-1] - run.time[-2]), rel=0.05)
+    # flown again it ends there too, with the same bits
+    again = wf.rerun(stop.value.partial.save(tmp_path / "run.nc"))
+    assert again.same and again.flight.data.attrs["failure"] == run.attrs["failure"]
     away = wf.trim(rigid, hover(None), inflow="dynamic")
     assert float(wf.fly(away, drop, integrator="fixed", revolutions=4).data.down[-1]) > 0.0
 
@@ -113,3 +120,10 @@ def test_heights_that_are_none_are_refused_by_name(rigid):
             wf.FlightCondition(speed="0 kt", height=height)
     with pytest.raises(wf.InputError, match="far_wake = 'cylinder'"):
         wf.trim(rigid, hover(1.0), inflow=wf.RelaxationWake(far_wake="cylinder"))
+
+
+def test_a_hub_so_low_that_the_airframe_is_in_the_ground_is_refused(rigid):
+    with pytest.raises(wf.InputError, match=r"height = '1 m': must be above 1\.803 m"):
+        wf.trim(rigid, wf.FlightCondition(speed="0 kt", height="1 m"), inflow="dynamic")
+    low = wf.trim(rigid, wf.FlightCondition(speed="0 kt", height="1.9 m"), inflow="dynamic")
+    assert wf.Simulation(low).t == 0.0

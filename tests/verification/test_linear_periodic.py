@@ -131,12 +131,13 @@ def test_the_mirrored_helicopter_has_the_mirrored_model(start):
     def signs(named):
         return np.array([-1.0 if name.split("_2")[0].split("_4")[0] in odd else 1.0 for name, _ in named])
 
-    s, y = signs(one.states), signs(one.outputs)
+    # lateral stick and pedal to the right in both
+    s, y, u = signs(one.states), signs(one.outputs), np.array([-1.0, 1.0, 1.0, -1.0])
     for mine, theirs, left, right in (
         (one.A, other.A, s, s),
-        (one.B, other.B, s, np.ones(4)),
+        (one.B, other.B, s, u),
         (one.C, other.C, y, s),
-        (one.D, other.D, y, np.ones(4)),
+        (one.D, other.D, y, u),
     ):
         scale = np.abs(mine.values).max()
         assert np.abs(left[:, None] * mine.values * right - theirs.values).max() < 1e-10 * scale

@@ -23,7 +23,8 @@ PITCHES = ("theta_1c", "theta_1s", "theta_0", "theta_tr")
 
 RIGGING_SIGNS = (-1.0, 1.0, 1.0, -1.0)
 """Sign of each stick's own pitch (lateral right, longitudinal aft, collective up, pedal right): a rotor that turns
-counter-clockwise follows a quarter turn behind its pitch, and its tail rotor's thrust turns the nose to the left."""
+counter-clockwise follows a quarter turn behind its pitch, and its tail rotor's thrust turns the nose to the left. That of a
+clockwise one counts azimuth the other way round: what lowers the right side raises it there, and theta_1c changes its sign."""
 
 STEEPEST_PITCH = math.radians(60.0)
 """Largest pitch [rad] that sticks may ask for: blades stall at a third of it."""
@@ -119,13 +120,14 @@ def _rigging(spec: AircraftFile, refuse: Any) -> None:
     for i, (stick, pitch, sign) in enumerate(zip(STICKS, PITCHES, RIGGING_SIGNS, strict=True)):
         if i == 3 and spec.tail_rotor is None:
             continue
-        own = rigging.matrix[i][i]
+        own, where = rigging.matrix[i][i], ""
+        if i == 0 and spec.rotor.rotation == "cw":
+            sign, where = -sign, " of a clockwise rotor, whose blade at 90 deg is on the left"
         if not own * sign > 0.0:
             way = "raise" if sign > 0.0 else "lower"
             side = ("right", "aft", "up", "right")[i]
-            raise refuse(
-                "rigging.matrix", f"{own:g} rad/m from {stick} to {pitch}", f"{stick} {side} must {way} {pitch}"
-            )
+            allowed = f"{stick} {side} must {way} {pitch}{where}"
+            raise refuse("rigging.matrix", f"{own:g} rad/m from {stick} to {pitch}", allowed)
         swings = [gain * travel for gain, travel in zip(rigging.matrix[i], rigging.stick_travel, strict=True)]
         lowest = rigging.offset[i] + sum(min(swing, 0.0) for swing in swings)
         highest = rigging.offset[i] + sum(max(swing, 0.0) for swing in swings)

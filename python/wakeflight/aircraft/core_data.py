@@ -22,6 +22,9 @@ _KNOT = 1852.0 / 3600.0
 OTHER_WAY = {"ccw": "cw", "cw": "ccw"}
 """Sense of rotation of the mirror image."""
 
+SIDEWARDS = (0, 3)
+"""Sticks that go to the sides: lateral, pedal."""
+
 
 def fixed_parts(spec: AircraftFile, path: Path) -> dict[str, Any]:
     """Everything that does not depend on the loading, tables read and checked for coverage; path: of the file, for messages."""
@@ -89,13 +92,13 @@ def assembled(spec: AircraftFile, parts: dict[str, Any], loading: Loading, gross
         "interference": parts["interference"],
         "accessory_power": float(spec.drive.accessory_power),
     }
-    return mirrored(whole) if spec.mirrored else whole
+    return mirrored(whole, spec.rigging.stick_travel) if spec.mirrored else whole
 
 
-def mirrored(whole: dict[str, Any]) -> dict[str, Any]:
+def mirrored(whole: dict[str, Any], travel: Sequence[float]) -> dict[str, Any]:
     """The mirror image: the rotor turns the other way with its hub on the other side, the core reflects the airframe's air loads.
 
-    Sticks count as before, lateral and pedal now from the other stop.
+    travel (4,) [m]: sticks are those of an aircraft still, lateral and pedal to the right.
     """
     rotor = whole["rotor"]
     x, y, z = rotor["position"]
@@ -104,7 +107,21 @@ def mirrored(whole: dict[str, Any]) -> dict[str, Any]:
         "position": [x, -y, z],
         "shaft_tilt_lateral": -rotor["shaft_tilt_lateral"],
     }
-    return {**whole, "rotor": {**rotor, **image}, "mirrored": True}
+    rigging = other_stops(whole["rigging"], travel)
+    return {**whole, "rotor": {**rotor, **image}, "rigging": rigging, "mirrored": True}
+
+
+def other_stops(rigging: dict[str, Any], travel: Sequence[float]) -> dict[str, Any]:
+    """The rigging of the mirror image: what a stick to the left did, one to the right does, in the rotor's own sense.
+
+    With s the stick from its stop, t its travel and M its column: offset + M s = (offset + M t) - M (t - s).
+    """
+    columns = [[-gain if k in SIDEWARDS else gain for k, gain in enumerate(row)] for row in rigging["matrix"]]
+    offset = [
+        rest + sum(row[k] * travel[k] for k in SIDEWARDS)
+        for rest, row in zip(rigging["offset"], rigging["matrix"], strict=True)
+    ]
+    return {**rigging, "matrix": columns, "offset": offset}
 
 
 def lag_damper_data(rotor: Any) -> dict[str, Any] | None:

@@ -133,7 +133,7 @@ class Aircraft:
         return self._spec.name
 
     def mirrored(self) -> Aircraft:
-        """Its mirror image: the rotor turns the other way; lateral stick and pedal count from the other stop."""
+        """Its mirror image: the rotor turns the other way; lateral stick and pedal go to the right, from the left stop."""
         return Aircraft(
             self._spec.model_copy(update={"mirrored": not self._spec.mirrored}), self._path, self._loading_name
         )

@@ -265,7 +265,7 @@ class Limits(Group):
 
     power: scalar("W", above=0.0, high=1e8) | None = None
     torque: scalar("N m", above=0.0, high=1e7) | None = None
-    rotor_speed: vector("rad/s", 2, low=0.0, high=1000.0) | None = None
+    rotor_speed: vector("rad/s", 2, low=0.0, high=10000.0) | None = None
 
     @model_validator(mode="after")
     def _ascending(self) -> Limits:

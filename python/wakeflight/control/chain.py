@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from .._core import ControlChain
-from ..errors import InputError, NumericalFailure, WakeflightError, one_line
+from ..errors import InputError, NumericalFailure, WakeflightError, one_line, said
 from ..sticks import INCH, STICKS, Added, Ramp, StickPath
 from . import gains
 from .augmentation import Augmentation
@@ -42,7 +42,7 @@ class Member:
         except WakeflightError:
             raise
         except Exception as reason:
-            raise InputError.of("control", controller.name, f"its reset raised {_said(reason)}") from reason
+            raise InputError.of("control", controller.name, f"its reset raised {said(reason)}") from reason
         self.called = self.controller.check()
         declared = self.controller.outputs
         self.outputs = (declared,) if isinstance(declared, str) else tuple(declared)
@@ -72,7 +72,7 @@ class Member:
             found = inches(self.controller.step(t, sensors, stick), self.outputs)
             saturated = self.controller.saturated
         except Exception as reason:
-            what = str(reason) if isinstance(reason, WakeflightError) else _said(reason)
+            what = str(reason) if isinstance(reason, WakeflightError) else said(reason)
             raise self.failure(t, one_line(what)) from reason
         return found, [name in saturated for name in STICKS]
 
@@ -203,8 +203,3 @@ class Chain:
         told = zip(names.items(), self.core.seconds, strict=True)
         found = {name: dict(zip(each, seconds, strict=True)) for (name, each), seconds in told}
         return found if self.has_servos else {"sas_saturated": found["sas_saturated"]}
-
-
-def _said(reason: Exception) -> str:
-    """An error of a user's code in words."""
-    return str(reason) if type(reason) is ValueError else f"{type(reason).__name__}: {reason}"

@@ -47,8 +47,33 @@ UNITS = {
     "yaw_collective_3": "rad/m",
     "pitch_due_to_roll_average": "dB",
     "roll_due_to_pitch_average": "dB",
+    "quickness": "1/s",
+    "attitude_change": "rad/in",
 }
 """Units of the quantities; 1 of those that are not here."""
+MEANINGS = {
+    "bandwidth": "bandwidth of the attitude by the stick, the smaller of those by phase and gain",
+    "bandwidth_phase": "frequency at which the phase is -135 deg",
+    "bandwidth_gain": "frequency at which the gain is 6 dB above that at w_180",
+    "w_180": "frequency at which the phase is -180 deg",
+    "phase_delay": "phase delay between w_180 and twice that",
+    "phase_delay_fit": "phase delay by the slope of a line through the phase from w_180 to twice that",
+    "peak_rate": f"largest rate within {STEP_SECONDS:g} s after a step of the stick",
+    "attitude_1s": "change of attitude one second after a step of the stick",
+    "quickness": "peak roll rate over peak change of roll after a pulse of lateral stick",
+    "attitude_change": "peak change of roll after a pulse of lateral stick",
+    "pitch_due_to_roll": f"largest pitch over the roll at {STEP_SECONDS:g} s after a lateral step",
+    "roll_due_to_pitch": f"largest roll over the pitch at {STEP_SECONDS:g} s after a longitudinal step",
+    "pitch_due_to_roll_average": "mean of q over p by lateral stick, from the bandwidth to w_180",
+    "roll_due_to_pitch_average": "mean of p over q by longitudinal stick, from the bandwidth to w_180",
+    "heave_fit": "sum of squares of the first-order fit of the rate of climb over that of the answer",
+    "heave_gain": "rate of climb after a collective step",
+    "heave_time": "time constant of the rate of climb after a collective step",
+    "heave_delay": "delay of the rate of climb after a collective step",
+    "yaw_collective_1": "first peak of the yaw rate over the rate of climb at 3 s after a collective step",
+    "yaw_collective_3": "change of the yaw rate from there to 3 s over that rate of climb",
+}
+"""Meaning of the quantities, their `long_name`."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -142,13 +167,14 @@ def handling_qualities(model: LinearModel) -> HandlingQualities:
     data["quickness"] = ("pulse", [each[0] for each in pulses])
     data["attitude_change"] = ("pulse", [each[1] for each in pulses])
     data |= {name: ((), value) for name, value in single.values.items()}
-    whole = xr.Dataset(data, coords={"axis": list(AXES), "pulse": ("pulse", list(PULSES), {"units": "s"})})
-    units = UNITS | {"quickness": "1/s", "attitude_change": "rad/in"}
-    for variable in whole.data_vars:
-        whole[variable].attrs["units"] = units.get(str(variable), "1")
+    pulse = ("pulse", list(PULSES), {"units": "s", "long_name": "width of the pulse"})
+    whole = xr.Dataset(data, coords={"axis": list(AXES), "pulse": pulse})
+    for name in map(str, whole.data_vars):
+        whole[name].attrs |= {"units": UNITS.get(name, "1"), "long_name": MEANINGS[name]}
+    told = {"units": "rad/in", "long_name": "attitude by the stick"}
     drawn = xr.Dataset(
-        {axis: ("frequency", response(w)) for axis, response in attitudes.items()},
-        coords={"frequency": ("frequency", w, {"units": "rad/s"})},
+        {axis: ("frequency", response(w), told) for axis, response in attitudes.items()},
+        coords={"frequency": ("frequency", w, {"units": "rad/s", "long_name": "frequency"})},
     )
     return HandlingQualities(whole, reasons, drawn)
 

@@ -23,6 +23,13 @@ if TYPE_CHECKING:
     import xarray as xr
 
 NO_UNIT = "1"
+MATRICES = (
+    "rate of a state by a state, in state_units a second by state_units_",
+    "rate of a state by an input, in state_units a second by input_units",
+    "output by a state, in output_units by state_units",
+    "output by an input at once, in output_units by input_units",
+)
+"""What A, B, C, D are, their `long_name`."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -119,7 +126,11 @@ class LinearModel:
             if dimension == "input":
                 coordinates["si"] = ("input", list(self.input_si))
         return xr.DataArray(
-            self.matrices[i], dims=(rows, columns), coords=coordinates, name="ABCD"[i], attrs={"time_unit": "s"}
+            self.matrices[i],
+            dims=(rows, columns),
+            coords=coordinates,
+            name="ABCD"[i],
+            attrs={"time_unit": "s", "long_name": MATRICES[i]},
         )
 
     def to_dataset(self) -> xr.Dataset:
@@ -207,15 +218,18 @@ class LinearModel:
                 "coherence": (dims, np.ones(found.shape), {"units": "1", "long_name": "coherence of a linear model"}),
             },
             coords={
-                "frequency": ("frequency", w, {"units": "rad/s"}),
+                "frequency": ("frequency", w, {"units": "rad/s", "long_name": "frequency"}),
                 "output": [self.outputs[i][0] for i in rows],
                 "input": [self.inputs[i][0] for i in columns],
             },
         )
 
     def response(self, time: Any, inputs: Mapping[str, Any]) -> xr.Dataset:
-        """Outputs from trim for histories of inputs about trim, linear between equally spaced times (n,) [s]."""
+        """Outputs from trim for histories of inputs about trim by name, linear between equally spaced times (n,) [s]."""
         import xarray as xr
+
+        if not isinstance(inputs, Mapping):
+            raise InputError.of("inputs", type(inputs).__name__, 'must be histories by name, {"lateral": array}')
 
         time = np.asarray(time, dtype=float)
         if time.ndim != 1 or time.size < 2 or not np.allclose(np.diff(time), time[1] - time[0], rtol=1e-6, atol=0.0):
@@ -230,8 +244,11 @@ class LinearModel:
                 )
             u[:, i] = given
         y = self._outputs(time, u)
-        found = {name: ("time", y[:, i], {"units": unit}) for i, (name, unit) in enumerate(self.outputs)}
-        return xr.Dataset(found, coords={"time": ("time", time, {"units": "s"})})
+        found = {
+            name: ("time", y[:, i], {"units": unit, "long_name": f"{name} from trim"})
+            for i, (name, unit) in enumerate(self.outputs)
+        }
+        return xr.Dataset(found, coords={"time": ("time", time, {"units": "s", "long_name": "time"})})
 
     def _outputs(self, time: np.ndarray, u: np.ndarray) -> np.ndarray:
         return time_response(self.matrices, time, u)[0]

@@ -6,7 +6,7 @@ from __future__ import annotations
 import hashlib
 import inspect
 import pickle
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -54,14 +54,17 @@ def plain(value: Any) -> Any:
     return {"object": type(value).__name__, "digest": hashlib.sha256(pickle.dumps(value, 4)).hexdigest()}
 
 
-def kept_of(keep: Any, dims: tuple[str, ...] | None) -> Kept:
-    """Variables by names, `all`, or by their dimensions."""
+def kept_of(keep: Any, dims: tuple[str, ...] | None, known: Collection[str] = ()) -> Kept:
+    """Variables by names, `all`, or by their dimensions; known: names that there are, none where a case must be run to know."""
     if keep == "all":
         return Kept()
     if keep is not None:
         names = (keep,) if isinstance(keep, str) else tuple(keep)
         if not names or not all(isinstance(name, str) for name in names):
             raise InputError.of("keep", keep, "must be names of variables, or all")
+        for name in names:
+            if known and name not in known:
+                raise InputError.choice("keep", name, known)
         return Kept(names=names)
     return Kept(dims=dims)
 

@@ -33,6 +33,7 @@ from ..linear.wake import check_wake
 from ..maneuver_files import load_maneuver
 from ..model import flight_regime
 from ..perturbation import offsets_of
+from ..results.schema import COORDINATES, RUN, TRIM, TUNNEL, Variable
 from ..rotor_speed import CONSTANT
 from ..trim import trim
 from ..tunnel import check as check_stand
@@ -120,6 +121,8 @@ class OfFlight:
     then: Callable[[Any, Mapping[str, Any], Any], Any]
     dims: tuple[str, ...] | None = None
     """Dimensions of variables that are kept unless something else is asked for; None: any."""
+    table: tuple[Variable, ...] = ()
+    """What its results may hold, where that is known before."""
 
     @property
     def sent(self) -> str:
@@ -170,7 +173,12 @@ class OfFlight:
 
     def kept(self, keep: Any) -> Kept:
         """Numbers and histories; maps of the disk, blades and wakes where they are asked for."""
-        return kept_of(keep, self.dims)
+        return kept_of(keep, self.dims, names_of(self.table))
+
+
+def names_of(table: tuple[Variable, ...]) -> tuple[str, ...]:
+    """Names of the variables of a table, and of the coordinates they may have; none of none."""
+    return (*(variable.name for variable in table), *COORDINATES) if table else ()
 
 
 def check_names(case: Case, allowed: tuple[str, ...]) -> None:
@@ -271,17 +279,20 @@ class OnStand:
 
     def kept(self, keep: Any) -> Kept:
         """Means; maps and histories where they are asked for."""
-        return kept_of(keep, ("xyz",))
+        return kept_of(keep, ("xyz",), names_of(TUNNEL))
 
 
 OF_TRIM = own_arguments(trim, "aircraft", "condition", "inflow")
 ON_STAND = own_arguments(tunnel, "aircraft", "inflow")
-LINEAR = own_arguments(linearize, "start")
+LINEAR = own_arguments(linearize, "start", "blades")
+"""`blades` of a case are those of the aircraft; tables are of multiblade coordinates."""
 VERBS: dict[str, tuple[Callable[..., Any], Verb]] = {
-    "trim": (trim, OfFlight("trim", (), "relaxation", _check_nothing, _trimmed, ("xyz",))),
+    "trim": (trim, OfFlight("trim", (), "relaxation", _check_nothing, _trimmed, ("xyz",), TRIM)),
     "fly": (
         fly,
-        OfFlight("fly", own_arguments(fly, "start", "inflow"), "time-marching", _check_flight, _fly, ("time", "xyz")),
+        OfFlight(
+            "fly", own_arguments(fly, "start", "inflow"), "time-marching", _check_flight, _fly, ("time", "xyz"), RUN
+        ),
     ),
     "linearize": (linearize, OfFlight("linearize", LINEAR, "dynamic", _check_linear, _linear)),
     "handling_qualities": (

@@ -13,7 +13,7 @@ import numpy as np
 
 from .. import _core
 from ..arguments import with_checked_init
-from ..errors import InputError
+from ..errors import InputError, NumericalFailure, WakeflightError, one_line, said
 from ..units import quantity
 
 STRONGEST = 100.0
@@ -132,8 +132,18 @@ class OwnWind(Wind):
         self.function = function
 
     def __call__(self, points: np.ndarray, t: float) -> np.ndarray:
-        """What the function says."""
-        return np.asarray(self.function(points, t), dtype=float)
+        """What the function says; whatever is wrong with it ends the flight there."""
+        try:
+            found = np.asarray(self.function(points, t), dtype=float)
+        except WakeflightError:
+            raise
+        except Exception as reason:
+            what = f"wind {self.described()['name']} at t = {t:.4f} s: {said(reason)}"
+            raise NumericalFailure(one_line(what)) from reason
+        if found.shape != points.shape:
+            allowed = f"must be {points.shape}, as the points"
+            raise InputError.of("wind", f"an answer of the shape {found.shape}", allowed)
+        return found
 
     def described(self) -> dict[str, Any]:
         """By the name of the function."""

@@ -29,7 +29,9 @@ class Surroundings:
         self.wind, self._closed = wind, wind.closed
         data = model.data
         tail = data["tail_rotor"] or data["fin"] or data["stabilator"]
-        self._places = _core.WindPlaces(model.core, tail["position"] if tail else (-10.0, 0.0, 0.0))
+        x, y, z = tail["position"] if tail else (-10.0, 0.0, 0.0)
+        # parts of a mirrored aircraft stand where its file has them; the core reflects their loads
+        self._places = _core.WindPlaces(model.core, (x, model.side * y, z))
         steady = wind.constant
         self._steady = None if steady is None else Air(steady)
 

@@ -39,7 +39,7 @@ impl System {
         let places = airframe.places().chain(self.closed.iter().map(|rotor| rotor.position));
         Some(
             places
-                .map(|place| ground - down - (turn * Vec3::<f64, Body>::cst(place)).z)
+                .map(|place| ground - down - (turn * airframe.hand.polar(Vec3::<f64, Body>::cst(place))).z)
                 .fold(f64::INFINITY, f64::min),
         )
     }

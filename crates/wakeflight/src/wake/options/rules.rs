@@ -240,7 +240,12 @@ impl WakeOptions {
             whole(self.near_wake_angle / self.delta_psi()).is_some(),
             "near_wake_angle",
             || degrees(self.near_wake_angle),
-            steps,
+            || {
+                let near = (self.near_wake_angle / self.delta_psi()).round().max(1.0)
+                    * self.azimuth_step.to_degrees();
+                let digits = format!("{near:.9}");
+                format!("{}, such as {} deg", steps(), digits.trim_end_matches('0').trim_end_matches('.'))
+            },
         )?;
         demand(
             self.inboard_wake == InboardWake::None || root_cutout < OUTER_END * radius,
@@ -314,6 +319,7 @@ mod tests {
         assert!(refused(&|o| o.turns = 2.01).contains("turns = 2.01"));
         assert!(refused(&|o| o.turns = f64::NAN).contains("turns = NaN"));
         assert!(refused(&|o| o.near_wake_angle = 0.5).contains("near_wake_angle = 28.6479 deg"));
+        assert!(refused(&|o| o.near_wake_angle = 0.5).contains("steps of 10 deg, such as 30 deg"));
         assert!(refused(&|o| o.near_wake_angle = 3.0).contains("from 0 deg to 90 deg"));
         assert!(refused(&|o| o.rotor.radius = f64::NAN).contains("radius = NaN"));
         let full_span = |o: &mut WakeOptions| o.trailers = Trailers::FullSpan;
