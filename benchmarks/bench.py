@@ -2,7 +2,7 @@
 
     python benchmarks/bench.py [--quick] [--print] [PART ...]
 
-Parts: kernel, threads, scaling, wake-step, pec, isolated-rotor, caradonna-tung, dynamics, maneuvers, import;
+Parts: kernel, threads, scaling, wake-step, pec, isolated-rotor, caradonna-tung, dynamics, maneuvers, desk, import;
 by default all. --quick: smaller wakes and two revolutions.
 --print: show the tables and leave the page alone. A part that is not asked for keeps its table.
 """
@@ -12,6 +12,7 @@ import re
 from pathlib import Path
 
 import flight
+import hands
 import measure
 import vortex
 import wake
@@ -20,7 +21,7 @@ PAGE = Path(__file__).resolve().parents[1] / "docs" / "numerics" / "performance.
 FIGURE = PAGE.parents[1] / "images" / "tree-scaling.png"
 PARTS = (
     *("kernel", "threads", "scaling", "wake-step", "pec", "isolated-rotor", "caradonna-tung"),
-    *("dynamics", "maneuvers", "import"),
+    *("dynamics", "maneuvers", "desk", "import"),
 )
 
 
@@ -61,6 +62,7 @@ def main() -> None:
         "caradonna-tung": wake.caradonna_tung,
         "dynamics": lambda: flight.dynamics(options.quick),
         "maneuvers": lambda: flight.maneuvers(options.quick, fastest(kernel)),
+        "desk": lambda: hands.desk(options.quick),
         "import": flight.import_time,
     }
     text = PAGE.read_text()

@@ -1,9 +1,8 @@
 """Inputs that engineers fly: shapes of the manoeuvres, recorded sticks, flights that begin beside their trim."""
 
-import sys
-
 import numpy as np
 import pytest
+from lines_run import lines_run
 
 import wakeflight as wf
 from wakeflight import cli
@@ -130,24 +129,6 @@ def test_a_record_about_trim_must_begin_there(tmp_path):
         wf.recorded_sticks(path, "hover")
 
 
-def _lines_run(work):
-    """Lines of Python that `work` runs, and what it returns: a cost that no other load of the machine changes."""
-    count = 0
-
-    def line(frame, event, argument):
-        nonlocal count
-        count += event == "line"
-        return line
-
-    before = sys.gettrace()
-    sys.settrace(lambda frame, event, argument: line)
-    try:
-        done = work()
-    finally:
-        sys.settrace(before)
-    return count, done
-
-
 def test_a_fine_record_costs_what_a_coarse_one_costs(tmp_path):
     seconds, found = 2.0, {}
     for rate in (20, 1000, 10000):
@@ -155,7 +136,7 @@ def test_a_fine_record_costs_what_a_coarse_one_costs(tmp_path):
         if not found:
             # what a first flight imports
             wf.fly(START, maneuver, integrator="fixed")
-        found[rate] = _lines_run(lambda flown=maneuver: wf.fly(START, flown, integrator="fixed").data)
+        found[rate] = lines_run(lambda flown=maneuver: wf.fly(START, flown, integrator="fixed").data)
     # samples are read and checked once, which takes some forty lines; each asked for at every step would take hundreds
     steps = found[20][1].sizes["time"]
     assert steps > 300

@@ -103,6 +103,7 @@ def flown(start, stick, inches):
     return both[0]["time"].values, {name: 0.5 * (both[0][name] - both[1][name]).values for name in ("p", "q", "w")}
 
 
+@pytest.mark.slow
 def test_hover_is_identified_and_answers_as_the_flown_wake_does(start):
     models = {wake: wf.linearize(start, wake=wake) for wake in ("identified", "frozen")}
     told = models["identified"].attributes

@@ -147,6 +147,7 @@ def test_what_blades_do_in_turn_is_remembered_as_the_motion_of_one_mode_with_the
         assert np.linalg.norm(share[standing] @ by_torsion - own) < allowed * np.linalg.norm(own)
 
 
+@pytest.mark.slow
 def test_pitch_after_a_lateral_step_at_120_kt_knows_what_blades_do_in_turn(fast):
     # with what blades do in turn up to the second harmonic alone: pitch 51, q 39, w 24 %
     sides = [
