@@ -5,6 +5,7 @@ import signal
 import subprocess
 import sys
 import time
+from importlib import import_module
 from pathlib import Path
 
 import numpy as np
@@ -112,7 +113,7 @@ def test_what_is_no_sweep_is_refused(wrong):
 )
 def test_every_case_is_checked_before_the_first_runs(verb, axes, said, monkeypatch):
     # an engine that is begun would fail the test
-    monkeypatch.setattr(sys.modules["wakeflight.sweep"], "local", None)
+    monkeypatch.setattr(import_module("wakeflight.sweep"), "local", None)
     with pytest.raises(wf.InputError, match=said.replace("'", ".")):
         wf.sweep(verb, wf.grid(**axes), workers=1)
 

@@ -2,7 +2,7 @@
 """Trim, stand and flight say the same of themselves: limits are told, what no rotor can give ends them by name."""
 
 import dataclasses
-import sys
+from importlib import import_module
 
 import numpy as np
 import pytest
@@ -76,7 +76,7 @@ def test_a_stand_beyond_physics_ends_with_what_it_computed(stand, monkeypatch):
     spoiled = stand.solution.inflow_map.copy()
     spoiled[9, -1] = 0.98
     false = dataclasses.replace(stand.solution, inflow_map=spoiled)
-    monkeypatch.setattr(sys.modules["wakeflight.tunnel"], "solution", lambda *_: false)
+    monkeypatch.setattr(import_module("wakeflight.tunnel"), "solution", lambda *_: false)
     with pytest.raises(wf.NumericalFailure, match=r"0\.98 of the tip speed at psi = 90 deg, r/R = 0\.999") as caught:
         wf.tunnel("uh60a", ct=0.006, speed="60 kt", flapping="zero", inflow="relaxation", blades="rigid")
     assert "0.98 of the tip speed" in caught.value.partial.data.attrs["failure"]
