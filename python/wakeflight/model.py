@@ -251,13 +251,14 @@ def turning_core(model: CompiledRotor, corners: Corners) -> _core.System:
     return model.core.with_rotor_speed([(t, share * model.omega) for t, share in corners])
 
 
-def _check_clearance(data: dict[str, Any], height: float) -> None:
-    """Refuse a hub so low that its airframe, level, is in the ground with its origin, tail rotor or tail surfaces."""
-    parts = [data[name] for name in ("tail_rotor", "stabilator", "fin")]
-    lowest = max([0.0, *(part["position"][2] for part in parts if part)])
-    reach = lowest - data["rotor"]["position"][2]
-    if height <= reach:
-        allowed = f"must be above {reach:.4g} m, by which the hub is above the lowest place of the airframe that counts"
+def _check_clearance(core: _core.System, height: float) -> None:
+    """Refuse a hub so low that its airframe, level, is in the ground."""
+    level = np.zeros(len(core.state_names()))
+    # the quaternion of no rotation
+    level[6] = 1.0
+    least = core.least_height(level)
+    if least is not None and least <= 0.0:
+        allowed = f"must be above {height - least:.4g} m, by which the hub is above the lowest place of the airframe that counts"
         raise InputError.of("height", f"{height:g} m", allowed)
 
 
@@ -307,8 +308,8 @@ class Model(CompiledRotor):
         chosen = setting((density, speed_of_sound), not inflow.is_dynamic, resolved, lift=lift, **inflow.sections)
         core = _core.System.aircraft(json.dumps(data), chosen)
         if condition.height is not None:
-            _check_clearance(data, condition.height)
             core = core.above_ground(condition.height)
+            _check_clearance(core, condition.height)
         return cls(aircraft, condition, inflow, core, data, density, speed_of_sound, target, n_harmonics)
 
     @property
