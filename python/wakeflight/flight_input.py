@@ -6,7 +6,6 @@ from __future__ import annotations
 import base64
 import binascii
 import json
-import os
 import platform
 import sys
 from collections.abc import Mapping
@@ -16,7 +15,7 @@ from functools import cached_property
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
-from ._core import build_commit, instruction_set
+from ._core import build_commit, instruction_set, threads
 from .aircraft import Aircraft
 from .aircraft.bundle import Bundle
 from .condition import FlightCondition, Target
@@ -180,7 +179,7 @@ def _made() -> dict[str, Any]:
             "system": platform.platform(),
             "processor": platform.processor() or platform.machine(),
             "instruction_set": instruction_set(),
-            "threads": os.environ.get("WAKEFLIGHT_THREADS", "1"),
+            "threads": str(threads()),
         },
         "date": datetime.now(UTC).isoformat(timespec="seconds"),
     }

@@ -37,7 +37,7 @@ mod _core {
         options::{check_options, option_descriptors},
         system::PySystem,
         trim::{TrimLayout, TrimProblem},
-        vortex::{build_commit, induced_velocity, instruction_set, set_threads},
+        vortex::{build_commit, induced_velocity, instruction_set, set_threads, threads_used},
         wake::{RelaxationWake, TimeMarchingWake, near_wake_matrix, wing_circulation},
         wind::{PyAir, PyPlaces, PyWind},
     };

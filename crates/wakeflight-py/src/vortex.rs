@@ -73,6 +73,12 @@ pub fn set_threads(n: i64) -> PyResult<()> {
     threads::set_threads(usize::try_from(n).unwrap_or(0)).map_err(invalid)
 }
 
+/// Number of threads of the sums: as set, else of WAKEFLIGHT_THREADS, else one per processor.
+#[pyfunction(name = "threads")]
+pub fn threads_used() -> PyResult<usize> {
+    threads::threads().map_err(invalid)
+}
+
 /// Commit that was built, `unknown` outside a checkout.
 #[pyfunction]
 pub fn build_commit() -> &'static str {

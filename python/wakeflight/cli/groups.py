@@ -92,7 +92,7 @@ FigureFormat = Annotated[
 ]
 Threads = Annotated[
     int | None,
-    told("--threads", "threads of the physics core", "WAKEFLIGHT_THREADS or 1"),
+    told("--threads", "threads of the physics core", "WAKEFLIGHT_THREADS or all processors"),
 ]
 Folder = Annotated[Path, typer.Argument(metavar="DIR", help="folder of a flight")]
 Checkpoint = Annotated[str, typer.Option("--checkpoint", help="wall clock between checkpoints")]

@@ -212,15 +212,14 @@ def seconds_between(checkpoint: str) -> float:
 def set_threads(threads: int | None) -> None:
     """Pass --threads, or check WAKEFLIGHT_THREADS and WAKEFLIGHT_SIMD, which the physics core reads."""
     from .._core import instruction_set
+    from .._core import threads as used
 
     if threads is not None:
         if not 1 <= threads <= 1024:
             raise InputError.of("--threads", threads, "must lie between 1 and 1024")
         os.environ["WAKEFLIGHT_THREADS"] = str(threads)
-    text = os.environ.get("WAKEFLIGHT_THREADS", "1")
-    if not (text.isascii() and text.isdigit() and 1 <= int(text) <= 1024):
-        raise InputError.of("WAKEFLIGHT_THREADS", text, "must be a whole number between 1 and 1024")
     try:
+        used()
         instruction_set()
     except ValueError as error:
         raise InputError(str(error)) from None
