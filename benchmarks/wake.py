@@ -21,7 +21,7 @@ RADIUS, OMEGA = 8.0, 27.0
 HUB = ((-20.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 
 # trailers of a blade, steps of a revolution, turns
-SIZES = [(1, 36, 4), (4, 36, 2), (8, 36, 4), (21, 36, 4), (21, 72, 8), (41, 72, 10), (61, 36, 59)]
+SIZES = [(1, 36, 4), (4, 36, 2), (8, 36, 4), (21, 36, 4), (21, 72, 8), (41, 72, 10), (61, 108, 20)]
 AFFORDABLE = 1.2e9
 """Evaluations of a field up to which the direct sum is timed whole; beyond, at part of the markers, and scaled."""
 
