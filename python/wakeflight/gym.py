@@ -121,6 +121,9 @@ class HelicopterEnv(gymnasium.Env[np.ndarray, np.ndarray]):
         loaded = load_aircraft(aircraft) if isinstance(aircraft, str) else aircraft
         self.aircraft = loaded
         self.seconds, self.upset = number("seconds", seconds, 0.01, 1e5), number("upset", upset, 0.0, 10.0)
+        length = quantity(dt, "s", "dt")
+        if not length > 0.0:
+            raise InputError.of("dt", dt, "must be above 0 s")
         given: dict[str, Any] = {} if self.task.speed is None else {"speed": f"{self.task.speed} m/s"}
         chosen = [FlightCondition(flight_path="0 deg", **given)] if conditions is None else list(conditions)
         if not chosen:
@@ -132,7 +135,7 @@ class HelicopterEnv(gymnasium.Env[np.ndarray, np.ndarray]):
             sim = Simulation(start, inflow=model, control=control)
             self._bank.append((sim, sim.snapshot()))
         self._take(0)
-        self.exchanges = max(1, round(quantity(dt, "s", "dt") / self.sim.delta_t))
+        self.exchanges = max(1, round(length / self.sim.delta_t))
         """Exchanges of a step."""
         self.dt = self.exchanges * self.sim.delta_t
         """Length of a step [s]."""

@@ -104,6 +104,7 @@ def test_options_that_cannot_be_are_refused(env):
         ({"task": "loop"}, "task"),
         ({"seconds": -1.0}, "seconds"),
         ({"conditions": []}, "conditions"),
+        ({"dt": "0 s"}, "dt = '0 s': must be above 0 s"),
     ):
         with pytest.raises(wf.InputError, match=named):
             wf.gym.HelicopterEnv(**options)

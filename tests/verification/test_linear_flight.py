@@ -151,6 +151,7 @@ def test_heading_position_and_wind_do_what_they_must():
         ({"azimuths": True}, "azimuths"),
         ({"harmonics": (0,)}, "harmonics"),
         ({"harmonics": (2, 2)}, "harmonics"),
+        ({"harmonics": (2, 3)}, "multiples of 2: 4 equal blades"),
     ],
 )
 def test_what_cannot_be_linearized_is_refused_by_name(asked, said):

@@ -51,6 +51,10 @@ HINGE_MODES = {"hinged": 2, "flapping": 1, "clamped": 0}
 """Modes of a rigid blade: turns about its hinges."""
 
 
+FEWEST_DEFAULT_STEPS = 36
+"""Fewest steps in a revolution where a file names no azimuth step (10 deg)."""
+
+
 class Settings(NamedTuple):
     """Discretisation: blade modes, finite elements, quadrature points of each, azimuth step, pitch of the mode problem [rad]."""
 
@@ -408,17 +412,26 @@ def _row(key: str, value: Any) -> Iterator[SourceRow]:
         yield SourceRow(key, value.value, value.unit, value.sources, value.confidence, value.note)
 
 
+def azimuth_step(given: str | None, n_blades: int, path: Path) -> float:
+    """Step that a file gives [rad]; by default the largest that divides 30 deg and the angle between blades, at most 10 deg."""
+    from ..inflow import check_azimuth_step
+
+    if given is None:
+        least = math.lcm(12, n_blades)
+        return 2.0 * math.pi / (least * math.ceil(FEWEST_DEFAULT_STEPS / least))
+    step = quantity(given, "rad", f"{path}: discretisation.azimuth_step")
+    check_azimuth_step(step, n_blades, f"{path}: discretisation.azimuth_step")
+    return step
+
+
 def _settings(spec: AircraftFile, path: Path) -> Settings:
     given = spec.discretisation
-    step = quantity(given.azimuth_step, "rad", f"{path}: discretisation.azimuth_step")
+    step = azimuth_step(given.azimuth_step, int(spec.rotor.n_blades), path)
     if given.reference_pitch is not None:
         pitch = quantity(given.reference_pitch, "rad", f"{path}: discretisation.reference_pitch")
     else:
         # mid collective stick, no cyclic: row theta_0, column collective
         rigging = spec.rigging
         pitch = rigging.offset[2] + rigging.matrix[2][2] * 0.5 * rigging.stick_travel[2]
-    from ..inflow import check_azimuth_step
-
-    check_azimuth_step(step, int(spec.rotor.n_blades), f"{path}: discretisation.azimuth_step")
     n_modes = given.n_modes if spec.rotor.blade.flexible else HINGE_MODES[spec.rotor.blade.root]
     return Settings(n_modes, given.n_elements, given.n_gauss, step, pitch)

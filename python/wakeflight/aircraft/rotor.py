@@ -22,7 +22,7 @@ from ..units import STANDARD_GRAVITY, quantity
 from .blade_data import blade_data
 from .core_data import lag_damper_data as damper
 from .load import find, load_aircraft, parsed
-from .model import HINGE_MODES, Aircraft, Settings, checked_discretisation
+from .model import HINGE_MODES, Aircraft, Settings, azimuth_step, checked_discretisation
 from .reading import validated
 from .rotor_checks import check_rotor, unused_on_a_stand
 from .rotor_file import UNSTATED, RotorFile, written_out
@@ -30,9 +30,6 @@ from .shipped import SHIPPED
 from .span import check_span, span_data, tip_section
 from .varied import plain, rewritten
 from .versions import groups_of
-
-FINEST_DEFAULT_STEPS = 36
-"""Fewest steps in a revolution where a file names no azimuth step (10 deg)."""
 
 
 @dataclass(frozen=True)
@@ -222,15 +219,7 @@ def _checked(spec: RotorFile, core: dict[str, Any], path: Path) -> list[str]:
 
 def _settings(spec: RotorFile, path: Path) -> Settings:
     given, n_blades = spec.discretisation, int(spec.rotor.n_blades)
-    if given.azimuth_step is None:
-        # whole numbers of steps between blades and in the near wake of 30 deg
-        least = math.lcm(12, n_blades)
-        step = 2.0 * math.pi / (least * math.ceil(FINEST_DEFAULT_STEPS / least))
-    else:
-        step = quantity(given.azimuth_step, "rad", f"{path}: discretisation.azimuth_step")
-    from ..inflow import check_azimuth_step
-
-    check_azimuth_step(step, n_blades, f"{path}: discretisation.azimuth_step")
+    step = azimuth_step(given.azimuth_step, n_blades, path)
     pitch = 0.0
     if given.reference_pitch is not None:
         pitch = quantity(given.reference_pitch, "rad", f"{path}: discretisation.reference_pitch")

@@ -281,7 +281,7 @@ class Discretisation(Group):
     n_elements: Annotated[int, Field(ge=1, le=100)] = 4
     # eight quadrature points per element: the equations of motion have the eigenproblem's frequencies within 2e-5
     n_gauss: Annotated[int, Field(ge=2, le=40)] = 8
-    azimuth_step: str = "10 deg"
+    azimuth_step: str | None = None
     reference_pitch: str | None = None
 
 

@@ -160,4 +160,9 @@ def _harmonics(asked: Sequence[int] | None, n_blades: int, blades: str, n: int) 
                 list(kept),
                 f"must be different whole numbers from 1 to {n // 4}, a quarter of the azimuths",
             )
+    own = default_harmonics(n_blades)[0]
+    if blades == "multiblade" and any(each % own for each in kept):
+        # others are excited by nothing and would be left out without a word
+        allowed = f"must be multiples of {own}: {n_blades} equal blades in multiblade coordinates have no others"
+        raise InputError.of("harmonics", list(kept), allowed)
     return tuple(sorted(kept))

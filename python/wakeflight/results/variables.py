@@ -89,7 +89,7 @@ _ROWS = (
         "circulation of the trailers of a full-span wake at their nodes, kept with `wake_sheet`",
     ),
     ("beta_0", "rad", "coning beyond precone: mean of the first flap mode over the blades"),
-    ("power", "W", "engine power: main rotor, tail rotor and accessories"),
+    ("power", "W", "power that main rotor, tail rotor and accessories take; the engines' at constant rotor speed"),
     ("ct", "1", "aerodynamic thrust coefficient of the main rotor along z_h, thrust over rho pi R^2 (Omega R)^2"),
     ("inflow_mean", "1", "area mean over the disk of the induced inflow v_i/(Omega R), positive down"),
     ("wind", "m/s", "velocity of the air at the origin of the body: north, east, down"),

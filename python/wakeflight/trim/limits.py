@@ -30,6 +30,8 @@ def limiting(
         texts.append(f"main rotor: {100 * share:.0f} % of the disk beyond stall at C_T/sigma {loading:.3f}")
     texts += sticks_beyond(dict(zip(STICKS, (x[:4] / INCH).tolist(), strict=True)), model.aircraft.stick_travel_in)
     tail = tail_loading(model, problem, x)
+    if model.data["tail_rotor"] is None:
+        texts.append("no tail rotor: fin and sideslip alone balance the torque of the main rotor")
     if tail is not None and abs(tail) > TAIL_LOADING:
         texts.append(f"tail rotor: beyond its thrust at C_T/sigma {tail:.3f}")
     ring = tail_in_vortex_ring(tail_flow(model, problem, x))

@@ -77,10 +77,13 @@ class WindField(Wind):
             raise InputError.of("wind field", ", ".join(missing), "must be coordinates of u, v, w", self.file)
         self._edges = [self._in_si(edge, AXES[name]) for name, edge in zip(names, edges, strict=True)]
         for name, values in zip(names, self._edges, strict=True):
-            if values.size < 2 or not np.all(np.diff(values) > 0.0):
-                raise InputError.of(
-                    f"wind field {name}", values.size, "must be two values or more that ascend", self.file
-                )
+            said = "must be two values or more that ascend"
+            if values.size < 2:
+                raise InputError.of(f"wind field {name}", f"{values.size} values", said, self.file)
+            falls = np.flatnonzero(~(np.diff(values) > 0.0))
+            if falls.size:
+                pair = f"{values[falls[0]]:g} before {values[falls[0] + 1]:g}"
+                raise InputError.of(f"wind field {name}", pair, f"{said}: sort the field by {name}", self.file)
         velocity = np.stack([self._in_si(array, "m/s") for array in arrays], axis=-1)
         if edges[-1].attrs.get("positive") == "up":
             self._edges[-1] = -self._edges[-1][::-1]

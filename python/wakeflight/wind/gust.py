@@ -62,7 +62,12 @@ class Gust(Told):
         vertical = {"up": -1.0, "down": 1.0}.get(self.direction)
         if vertical is not None:
             return np.array([0.0, 0.0, size * vertical])
-        angle = quantity(self.direction, "rad", "gust direction")
+        try:
+            angle = quantity(self.direction, "rad", "gust direction")
+        except InputError:
+            raise InputError.of(
+                "gust direction", self.direction, "must be up, down, or an angle such as '90 deg'"
+            ) from None
         return size * np.array([math.cos(angle), math.sin(angle), 0.0])
 
     @cached_property

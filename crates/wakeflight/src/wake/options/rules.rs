@@ -241,7 +241,9 @@ impl WakeOptions {
             "near_wake_angle",
             || degrees(self.near_wake_angle),
             || {
-                let near = (self.near_wake_angle / self.delta_psi()).round().max(1.0)
+                // not beyond the range of the option, 90 deg
+                let most = (0.25 * TAU / self.delta_psi() + 1e-9).floor();
+                let near = (self.near_wake_angle / self.delta_psi()).round().min(most).max(1.0)
                     * self.azimuth_step.to_degrees();
                 let digits = format!("{near:.9}");
                 format!("{}, such as {} deg", steps(), digits.trim_end_matches('0').trim_end_matches('.'))
@@ -320,6 +322,10 @@ mod tests {
         assert!(refused(&|o| o.turns = f64::NAN).contains("turns = NaN"));
         assert!(refused(&|o| o.near_wake_angle = 0.5).contains("near_wake_angle = 28.6479 deg"));
         assert!(refused(&|o| o.near_wake_angle = 0.5).contains("steps of 10 deg, such as 30 deg"));
+        let seven = |o: &mut WakeOptions| {
+            (o.rotor.n_blades, o.azimuth_step, o.near_wake_angle) = (7, TAU / 42.0, 1.57);
+        };
+        assert!(refused(&seven).contains("such as 85.714285714 deg"), "{}", refused(&seven));
         assert!(refused(&|o| o.near_wake_angle = 3.0).contains("from 0 deg to 90 deg"));
         assert!(refused(&|o| o.rotor.radius = f64::NAN).contains("radius = NaN"));
         let full_span = |o: &mut WakeOptions| o.trailers = Trailers::FullSpan;
