@@ -94,6 +94,8 @@ def threads() -> str:
 
 def one_size(n_filaments: int, turns: int, step_deg: float) -> None:
     """Prints segments, processor seconds of tree and direct sum, error and memory of one wake; a process of its own."""
+    # helpers that stand by would be counted too
+    _core.set_threads(1)
     points, nodes, circulation = helices(n_filaments, turns, step_deg)
     radius = np.full(circulation.size, 0.02)
     # the first call loads the library
