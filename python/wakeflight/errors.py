@@ -39,13 +39,13 @@ class InputError(WakeflightError, ValueError):
     def of(cls, field: str, value: object, allowed: str, file: object = None) -> Self:
         """Error about one field: `file: field = value: allowed`."""
         where = f"{shortened(str(file), 240)}: " if file is not None else ""
-        return cls(f"{where}{shortened(str(field), 120)} = {_shown(value)}: {allowed}")
+        return cls(f"{where}{shortened(str(field), 120)} = {shown(value)}: {allowed}")
 
     @classmethod
     def choice(cls, field: str, value: object, names: Iterable[str], more: str = "", file: object = None) -> Self:
         """Error about a field that takes one of `names`, the nearest of them first; more: what else is taken."""
         known = list(names)
-        near = get_close_matches(_shown(value).strip("'").lower(), known, n=1, cutoff=0.6)
+        near = get_close_matches(shown(value).strip("'").lower(), known, n=1, cutoff=0.6)
         meant = f"did you mean {near[0]}? " if near else ""
         return cls.of(field, value, f"{meant}allowed: {', '.join(known)}{more}", file)
 
@@ -122,7 +122,7 @@ def shortened(text: str, width: int) -> str:
     return f"{text[:head]} ... {text[head + 5 - width :]}"
 
 
-def _shown(value: object, width: int = 80) -> str:
+def shown(value: object, width: int = 80) -> str:
     """`value` as a person would type it, shortened; what does not show itself, by its type."""
     if isinstance(value, str | bytes):
         # only what is shown is looked at: a value may have the length of a file

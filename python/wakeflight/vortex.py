@@ -82,7 +82,7 @@ def induced_velocity(
     if curvature_correction and core != "vatistas2":
         raise InputError(f"core = {core!r}: allowed is vatistas2 with curvature_correction")
     if not 0.0 < tolerance < 1.0:
-        raise InputError(f"tolerance = {tolerance!r}: allowed are numbers above 0 and below 1")
+        raise InputError.of("tolerance", tolerance, "allowed are numbers above 0 and below 1")
 
     n_nodes = np.array([len(filament) for filament in nodes], dtype=np.int64)
     all_nodes = np.concatenate(nodes) if nodes else np.empty((0, 3))
@@ -98,7 +98,7 @@ def _numbers(name: str, value: ArrayLike) -> NDArray[np.float64]:
         if array.dtype.kind not in "iuf":
             raise TypeError
     except (TypeError, ValueError):
-        raise InputError(f"{name} = {value!r:.60}: allowed is an array of real numbers") from None
+        raise InputError.of(name, value, "allowed is an array of real numbers") from None
     return np.ascontiguousarray(array, dtype=np.float64)
 
 
@@ -128,4 +128,4 @@ def _values(name: str, value: ArrayLike, n_segments: int) -> NDArray[np.float64]
 
 def _one_of(name: str, value: str, allowed: tuple[str, ...]) -> None:
     if value not in allowed:
-        raise InputError(f"{name} = {value!r}: allowed are {', '.join(allowed)}")
+        raise InputError.of(name, value, f"allowed are {', '.join(allowed)}")

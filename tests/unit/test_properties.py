@@ -194,6 +194,12 @@ def test_a_table_that_is_continued_keeps_its_own_values_and_closes(slope, last, 
         assert found[name]["values"][0] == pytest.approx(found[name]["values"][-1], abs=1e-12)
 
 
+def test_a_table_that_ends_before_half_a_turn_is_not_mirrored():
+    grid = {"x": [0.0, math.radians(100.0)], "y": [0.0], "values": [[0.0], [0.0]]}
+    with pytest.raises(ValueError, match="cd: extend = mirror needs angles up to 180 deg; the last is 100 deg"):
+        extended({"cd": grid}, "mirror")
+
+
 # --- sticks --------------------------------------------------------------------------------------------------------------------
 
 

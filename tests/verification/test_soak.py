@@ -76,7 +76,7 @@ def watched(program: list[str], log: Path, until: float, rows: int) -> Life:
     seen: list[float] = []
     n = first = size = 0
     while child.poll() is None:
-        time.sleep(0.5)
+        time.sleep(0.05)
         try:
             memory, n = anonymous(child.pid), log.stat().st_size // max(size, 1)
             if not size:

@@ -287,6 +287,8 @@ def test_verif_tree_and_direct_sum_agree_to_a_thousandth_of_the_largest_velocity
         ({"core": "vatistas"}, "core = 'vatistas': allowed are singular, scully"),
         ({"core_distance": "point"}, "core_distance = 'point': allowed are line, segment"),
         ({"method": "fmm"}, "method = 'fmm': allowed are direct, tree, auto"),
+        ({"core_radius": 10**5000}, "core_radius = <int>: allowed is an array of real numbers"),
+        ({"tolerance": 10**5000}, "tolerance = <int>: must be a finite number"),
         ({"tolerance": 0.0}, "tolerance = 0.0: allowed are numbers above 0 and below 1"),
     ],
 )

@@ -68,6 +68,9 @@ def _mirrored(name: str, grid: Grid) -> Grid:
     if abs(grid["x"][0]) > 1e-9:
         first = f"{math.degrees(grid['x'][0]):g} deg"
         raise ValueError(f"{name}: extend = mirror needs angles from 0 on; the first is {first}")
+    if grid["x"][-1] < math.pi - 1e-9:
+        last = f"{math.degrees(grid['x'][-1]):g} deg"
+        raise ValueError(f"{name}: extend = mirror needs angles up to 180 deg; the last is {last}")
     sign = 1.0 if name == "cd" else -1.0
     if sign < 0.0 and any(grid["values"][0]):
         raise ValueError(f"{name}: extend = mirror needs a section without {name} at 0 deg: it is symmetric")

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from .._core import Feedback
-from ..errors import InputError
+from ..errors import InputError, shown
 from ..sticks import STICKS
 from ..units import quantity
 from .sensors import Sensors
@@ -121,11 +121,11 @@ def inches(answer: Any, outputs: tuple[str, ...]) -> list[float]:
         if name not in outputs:
             raise ValueError(f"step moved '{name}', allowed are its outputs: {', '.join(outputs)}")
         if type(value) is not float and (isinstance(value, bool | str | bytes) or np.ndim(value) != 0):
-            raise ValueError(f"step returned {name} = {value!r}, must be a number of inches")
+            raise ValueError(f"step returned {name} = {shown(value)}, must be a number of inches")
         try:
             number = float(value)
-        except (TypeError, ValueError):
-            raise ValueError(f"step returned {name} = {value!r}, must be a number of inches") from None
+        except (TypeError, ValueError, OverflowError):
+            raise ValueError(f"step returned {name} = {shown(value)}, must be a number of inches") from None
         if not math.isfinite(number):
             raise ValueError(f"step returned {name} = {number}, must be finite inches")
         found[STICKS.index(name)] = number

@@ -31,7 +31,7 @@ declare! {
             finer_larger("wake-turns", None);
 
         /// Step of azimuth, of wake age and of the coupling; divides the angle between blades.
-        azimuth_step: f64 = left_open(deg(10.0), "that of the aircraft's or rotor's file, 10 deg where it gives none"),
+        azimuth_step: f64 = left_open(deg(10.0), "that of the aircraft's or rotor's file, where it gives none 10 deg or the next below that divides 30 deg and the angle between blades"),
             unit("rad"), between(deg(0.1), deg(45.0)), of(EVERY_MODEL), source(&["ribera2004"]),
             finer_smaller("azimuth-step", Some(2.0));
 
