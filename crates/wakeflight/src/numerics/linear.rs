@@ -75,20 +75,28 @@ impl Loops for Product<'_> {
 #[derive(Clone, Debug, Default)]
 pub struct LinearSystem {
     n: usize,
-    /// Rows of A, each followed by its b, in whole blocks.
+    /// Blocks of a row.
+    width: usize,
+    /// Rows of A, each followed by its b.
     rows: Vec<Block>,
 }
+
+/// Blocks of a row that the elimination is compiled for, the widest for up to 255 unknowns (blades have at most 200 stations).
+const WIDTHS: [usize; 6] = [1, 2, 3, 4, 8, WIDEST];
+const WIDEST: usize = 32;
 
 impl LinearSystem {
     /// For `n` unknowns.
     pub fn new(n: usize) -> Self {
-        Self { n, rows: vec![[0.0; BLOCK]; n * blocks_of(n + 1)] }
+        debug_assert!(n < WIDEST * BLOCK);
+        let width = WIDTHS.into_iter().find(|width| width * BLOCK > n).unwrap_or(WIDEST);
+        Self { n, width, rows: vec![[0.0; BLOCK]; n * width] }
     }
 
     /// I - diag(slope) N, whose rows are `near` (n, n), and the right-hand side.
     pub fn set_feedback(&mut self, slope: impl Iterator<Item = f64>, near: &[f64], right: &[f64]) {
         let n = self.n;
-        let rows = self.rows.chunks_exact_mut(blocks_of(n + 1)).map(<[Block]>::as_flattened_mut);
+        let rows = self.rows.chunks_exact_mut(self.width.max(1)).map(<[Block]>::as_flattened_mut);
         for (i, (((row, slope), near), right)) in
             rows.zip(slope).zip(near.chunks_exact(n.max(1))).zip(right).enumerate()
         {
@@ -103,7 +111,7 @@ impl LinearSystem {
     /// Rows of A and the right-hand side, as `fill` writes them: row index, its n coefficients and the number on the right.
     pub fn set(&mut self, mut fill: impl FnMut(usize, &mut [f64])) {
         let n = self.n;
-        for (i, row) in self.rows.chunks_exact_mut(blocks_of(n + 1)).enumerate() {
+        for (i, row) in self.rows.chunks_exact_mut(self.width.max(1)).enumerate() {
             fill(i, &mut row.as_flattened_mut()[..=n]);
         }
     }
@@ -131,42 +139,64 @@ impl Loops for Elimination<'_> {
     type Output = Option<f64>;
     #[inline(always)]
     fn run(self) -> Option<f64> {
-        let LinearSystem { n, rows } = self.system;
-        let (n, width) = (*n, blocks_of(*n + 1));
-        let mut sign = 1.0;
-        for k in 0..n {
-            let (block, lane) = (k / BLOCK, k % BLOCK);
-            let (mut pivot, mut size) = (k, rows[k * width + block][lane].abs());
-            for row in k + 1..n {
-                let other = rows[row * width + block][lane].abs();
-                if other > size {
-                    (pivot, size) = (row, other);
-                }
-            }
-            if rows[pivot * width + block][lane] == 0.0 {
+        let LinearSystem { n, width, rows } = self.system;
+        // rows of a length known to the compiler: half the time of loops over any
+        match *width {
+            1 => eliminate::<1>(*n, rows.as_chunks_mut().0, self.x),
+            2 => eliminate::<2>(*n, rows.as_chunks_mut().0, self.x),
+            3 => eliminate::<3>(*n, rows.as_chunks_mut().0, self.x),
+            4 => eliminate::<4>(*n, rows.as_chunks_mut().0, self.x),
+            8 => eliminate::<8>(*n, rows.as_chunks_mut().0, self.x),
+            _ => eliminate::<WIDEST>(*n, rows.as_chunks_mut().0, self.x),
+        }
+    }
+}
+
+/// Solves rows of A and b (n) by elimination with partial pivoting into `x` (n); the sign of the determinant.
+#[inline(always)]
+fn eliminate<const W: usize>(n: usize, rows: &mut [[Block; W]], x: &mut [f64]) -> Option<f64> {
+    let mut sign = 1.0;
+    let mut pivot = (0, 0.0);
+    for (i, row) in rows.iter().enumerate() {
+        pivot = larger(pivot, i, row[0][0]);
+    }
+    for block in 0..W {
+        for lane in 0..BLOCK.min(n.saturating_sub(block * BLOCK)) {
+            let k = block * BLOCK + lane;
+            if pivot.1 == 0.0 {
                 return None;
             }
-            sign *= rows[pivot * width + block][lane].signum();
-            let (upper, lower) = rows.split_at_mut((k + 1) * width);
-            let first = &mut upper[k * width + block..];
-            if pivot != k {
+            let (upper, lower) = rows.split_at_mut(k + 1);
+            if pivot.0 > 0 {
                 sign = -sign;
-                first.swap_with_slice(&mut lower[(pivot - k - 1) * width + block..][..width - block]);
+                std::mem::swap(&mut upper[k], &mut lower[pivot.0 - 1]);
             }
-            let inverse = 1.0 / first[0][lane];
-            // what lies left of the pivot in its block is no part of the matrix any more
-            for row in lower.chunks_exact_mut(width) {
+            let first = upper[k];
+            sign *= first[block][lane].signum();
+            let inverse = 1.0 / first[block][lane];
+            // the next pivot is looked for while rows are at hand: the search alone waits for every comparison
+            let next = ((k + 1) / BLOCK, (k + 1) % BLOCK);
+            pivot = (0, 0.0);
+            for (i, row) in lower.iter_mut().enumerate() {
                 let factor = row[block][lane] * inverse;
-                add_scaled(&mut row[block..], -factor, first);
+                // what lies left of the pivot in its block is no part of the matrix any more
+                add_scaled(&mut row[block..], -factor, &first[block..]);
+                pivot = larger(pivot, i, row[next.0][next.1]);
             }
         }
-        for k in (0..n).rev() {
-            let row = rows[k * width..(k + 1) * width].as_flattened();
-            let known: f64 = row[k + 1..n].iter().zip(&self.x[k + 1..]).map(|(a, x)| a * x).sum();
-            self.x[k] = (row[n] - known) / row[k];
-        }
-        Some(sign)
     }
+    for k in (0..n).rev() {
+        let row = rows[k].as_flattened();
+        let known: f64 = row[k + 1..n].iter().zip(&x[k + 1..]).map(|(a, x)| a * x).sum();
+        x[k] = (row[n] - known) / row[k];
+    }
+    Some(sign)
+}
+
+/// The larger in size of a pivot found before, with its row, and the one in row `i`; the first of equal ones.
+#[inline(always)]
+fn larger(before: (usize, f64), i: usize, entry: f64) -> (usize, f64) {
+    if entry.abs() > before.1 { (i, entry.abs()) } else { before }
 }
 
 #[cfg(test)]
@@ -198,7 +228,7 @@ mod tests {
     #[test]
     fn systems_that_need_pivots_are_solved() {
         // zeros on the diagonal: without pivoting the first step divides by zero
-        for n in [1, 2, 5, 7, 8, 20, 33] {
+        for n in [1, 2, 5, 7, 8, 15, 16, 20, 33, 64, 200] {
             let mut near = numbers(n * n);
             if n > 1 {
                 (0..n).for_each(|i| near[i * n + i] = 1.0);
