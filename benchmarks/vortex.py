@@ -1,7 +1,6 @@
 """Segment sums: nanoseconds per evaluation, threads, and growth with the number of segments."""
 
 import os
-import statistics
 import subprocess
 import sys
 import time
@@ -102,18 +101,22 @@ def one_size(n_filaments: int, turns: int, step_deg: float) -> None:
     wf.induced_velocity(points[:64], nodes, circulation, radius)
     # the direct sum at as many points as a few seconds allow, its time scaled
     every = max(1, round(points.shape[0] * circulation.size / 5e8))
+    some = points[::every]
+    # processor time is counted in ticks of milliseconds: small sums are done many times
+    repetitions = max(1, round(3e8 / (some.shape[0] * circulation.size)))
     begun = time.process_time()
-    direct = wf.induced_velocity(points[::every], nodes, circulation, radius)
-    by_direct = (time.process_time() - begun) * points.shape[0] / direct.shape[0]
+    for _ in range(repetitions):
+        direct = wf.induced_velocity(some, nodes, circulation, radius)
+    by_direct = (time.process_time() - begun) / repetitions * points.shape[0] / some.shape[0]
     # what the packed segments take is taken; what the tree takes comes on top
-    before, times = peak_memory(), []
-    for _ in range(5 if circulation.size < 30_000 else 1):
-        begun = time.process_time()
+    before = peak_memory()
+    begun = time.process_time()
+    for _ in range(repetitions):
         tree = wf.induced_velocity(points, nodes, circulation, radius, method="tree")
-        times.append(time.process_time() - begun)
+    by_tree = (time.process_time() - begun) / repetitions
     error = np.linalg.norm(tree[::every] - direct, axis=1).max() / np.linalg.norm(direct, axis=1).max()
     of_tree = (peak_memory() - before) * 1e6 / circulation.size
-    print(circulation.size, by_direct, statistics.median(times), error, peak_memory(), of_tree)
+    print(circulation.size, by_direct, by_tree, error, peak_memory(), of_tree)
 
 
 def scaling(quick: bool, figure: Path | None) -> str:

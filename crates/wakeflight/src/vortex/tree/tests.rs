@@ -217,7 +217,10 @@ fn the_work_of_the_tree_grows_little_faster_than_the_number_of_segments() {
 
 #[test]
 fn few_segments_are_summed_directly_and_nothing_induces_nothing() {
-    let auto = Method::Auto { tolerance: DEFAULT_TOLERANCE };
+    let auto = Method::Auto { tolerance: DEFAULT_TOLERANCE, single: false };
+    let none_in_single = Method::Auto { tolerance: DEFAULT_TOLERANCE, single: true };
+    assert!(auto.tree(5000, 5000).is_some() && none_in_single.tree(5000, 5000).is_none());
+    assert!(none_in_single.tree(40_000, 40_000).is_some());
     let filaments = wake(1, 0.02);
     let (mut v, mut w) = (vec![[0.0; 3]; filaments.nodes.len()], vec![[0.0; 3]; filaments.nodes.len()]);
     let (core, distance) = (Core::Vatistas2, CoreDistance::Line);

@@ -81,7 +81,7 @@ impl WakeOptions {
     pub(crate) fn method(&self) -> Method {
         let tolerance = self.tree_tolerance;
         match self.summation {
-            Summation::Auto => Method::Auto { tolerance },
+            Summation::Auto => Method::Auto { tolerance, single: self.precision == Precision::Single },
             Summation::Direct => Method::Direct,
             Summation::Tree => Method::Tree { tolerance },
         }
