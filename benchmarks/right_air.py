@@ -168,8 +168,9 @@ def distances(found, judge):
             for quantity in ("lambda_0", "rate"):
                 rows[f"{step}: {quantity} at {instant} s"] = mine[quantity][i] / true[quantity][i] - 1.0
             rows[f"{step}: -Z/W at {instant} s"] = mine["thrust_over_weight"][i] - true["thrust_over_weight"][i]
-    for speed, mine in found["level"].items():
-        true = judge["level"].get(speed)
+    # a run that was ended before its last part has none
+    for speed, mine in found.get("level", {}).items():
+        true = judge.get("level", {}).get(speed)
         if isinstance(mine, dict) and isinstance(true, dict):
             for quantity in ("power", "lambda_0"):
                 rows[f"level, {speed} kt: {quantity}"] = mine[quantity] / true[quantity] - 1.0
