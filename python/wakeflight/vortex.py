@@ -51,8 +51,8 @@ def induced_velocity(
         "segment" itself.
         Without effect for singular and rosenhead_moore.
     method: "direct", every segment at every point, exact to rounding; "tree", far segments by multipoles and near ones
-        exactly, for thousands of segments and more; "auto", the faster of the two (the tree from about 4000 points and
-        4000 segments on, docs/numerics/performance.md).
+        exactly, for thousands of segments and more; "auto", the faster of the two (the tree from about 2000 points and
+        2000 segments on, docs/numerics/performance.md).
         By the tree, a point's velocity depends within the tolerance on which other points are asked for.
     curvature_correction: whether points that are inner nodes of a filament, to the last bit, also get what the arc through
         them and their neighbours induces beyond its two chords a and b, along its binormal,

@@ -1,5 +1,6 @@
 //! Arithmetic on vectors of numbers, one for each point, with the roots of choice.
 
+use super::arithmetic::Arithmetic;
 use pulp::Simd;
 
 /// Keeps roots and quotients finite where everything vanishes; reached below lengths of 1e-18 m only.
@@ -90,6 +91,39 @@ impl<S: Simd, R: Roots<S>> Lanes<S, R> {
     /// One over the square root of positive numbers.
     #[inline(always)]
     pub fn reciprocal_sqrt(self, a: S::f64s) -> S::f64s {
+        self.roots.reciprocal_sqrt(self, a)
+    }
+}
+
+impl<S: Simd, R: Roots<S>> Arithmetic for Lanes<S, R> {
+    type Vector = S::f64s;
+    type Number = f64;
+    #[inline(always)]
+    fn constant(self, x: f64) -> S::f64s {
+        self.simd.splat_f64s(x)
+    }
+    #[inline(always)]
+    fn splat(self, x: f64) -> S::f64s {
+        self.simd.splat_f64s(x)
+    }
+    #[inline(always)]
+    fn add(self, a: S::f64s, b: S::f64s) -> S::f64s {
+        self.simd.add_f64s(a, b)
+    }
+    #[inline(always)]
+    fn mul(self, a: S::f64s, b: S::f64s) -> S::f64s {
+        self.simd.mul_f64s(a, b)
+    }
+    #[inline(always)]
+    fn mul_add(self, a: S::f64s, b: S::f64s, c: S::f64s) -> S::f64s {
+        self.simd.mul_add_e_f64s(a, b, c)
+    }
+    #[inline(always)]
+    fn sub_mul(self, c: S::f64s, a: S::f64s, b: S::f64s) -> S::f64s {
+        self.simd.negate_mul_add_e_f64s(a, b, c)
+    }
+    #[inline(always)]
+    fn reciprocal_sqrt(self, a: S::f64s) -> S::f64s {
         self.roots.reciprocal_sqrt(self, a)
     }
 }

@@ -9,6 +9,7 @@ pub mod sources;
 pub mod threads;
 pub mod tree;
 
+mod arithmetic;
 mod dispatch;
 mod kernel;
 mod lanes;

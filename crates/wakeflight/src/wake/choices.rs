@@ -77,7 +77,7 @@ choices! {
     pub enum Precision {
         /// Double precision.
         Double = "double",
-        /// Single precision, error about 1e-6 of the largest velocity; double where the tree sums, and at points asked for.
+        /// Single precision, error about 1e-6 of the largest velocity; double at points asked for.
         Single = "single",
     }
 }

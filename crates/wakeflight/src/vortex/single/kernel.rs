@@ -7,8 +7,9 @@ use crate::vortex::strands::Strand;
 use pulp::Simd;
 use pulp::bytemuck::{cast_slice, cast_slice_mut};
 
-/// Square of a distance, in units of length, that is added to all: where there is no other the point lies on a node.
-const LEAST_SQUARE: f32 = 1e-24;
+/// Square of a distance, in units of length, that is added to all: where there is no other the point lies on a node. Above that of
+/// rounding, so that the cosine to an end that is nearly met stays of order one, and below what changes any other distance.
+const LEAST_SQUARE: f32 = 1e-13;
 /// Least product under the reciprocal root of a core at the distance to the segment.
 const LEAST_PRODUCT: f32 = 1e-36;
 /// Segments that are summed plainly before their sum is added with its rounding kept.
@@ -22,7 +23,7 @@ pub(super) struct Sum<'a, const TO_SEGMENT: bool> {
 }
 
 /// Position or velocity of several points.
-type Vectors<S> = [<S as Simd>::f32s; 3];
+pub(in crate::vortex) type Vectors<S> = [<S as Simd>::f32s; 3];
 
 /// Points seen from one node: separation, its square, twice one over its length, and whether there is any.
 struct FromNode<S: Simd> {
@@ -33,15 +34,16 @@ struct FromNode<S: Simd> {
 }
 
 /// A sum of tiles: what is rounded off when a tile is added is carried on.
-struct Total<S: Simd> {
+pub(in crate::vortex) struct Total<S: Simd> {
     sum: Vectors<S>,
     rest: Vectors<S>,
 }
 
 /// Segments summed plainly, and how many they are.
 #[derive(Clone, Copy)]
-struct Tile<S: Simd> {
-    sum: Vectors<S>,
+pub(in crate::vortex) struct Tile<S: Simd> {
+    /// Their sum.
+    pub sum: Vectors<S>,
     n: usize,
 }
 
@@ -58,8 +60,7 @@ impl<const TO_SEGMENT: bool> OverLanes for Sum<'_, TO_SEGMENT> {
     fn run<S: Simd, R: Root<S>>(self, simd: S, root: R) {
         let (on, count) = (Lanes::new(simd, root), Lanes::<S, R>::COUNT);
         for (points, velocity) in self.points.chunks(count).zip(self.velocity.chunks_mut(count)) {
-            let zero = [on.splat(0.0); 3];
-            let (mut total, mut tile) = (Total { sum: zero, rest: zero }, Tile { sum: zero, n: 0 });
+            let (mut total, mut tile) = (Total::new(on), Tile::new(on));
             for part in self.parts {
                 if let Some(single) = part.single {
                     let at = gathered(on, points, single.per_unit);
@@ -74,7 +75,11 @@ impl<const TO_SEGMENT: bool> OverLanes for Sum<'_, TO_SEGMENT> {
 
 /// Coordinates across lanes; lanes past the end repeat the last point, so that all lanes do the same.
 #[inline(always)]
-fn gathered<S: Simd, R: Root<S>>(on: Lanes<S, R>, points: &[[f64; 3]], per_unit: f64) -> Vectors<S> {
+pub(in crate::vortex) fn gathered<S: Simd, R: Root<S>>(
+    on: Lanes<S, R>,
+    points: &[[f64; 3]],
+    per_unit: f64,
+) -> Vectors<S> {
     let mut coordinates = [on.splat(0.0); 3];
     for i in 0..Lanes::<S, R>::COUNT {
         let place = scaled(points[i.min(points.len() - 1)], per_unit);
@@ -86,22 +91,36 @@ fn gathered<S: Simd, R: Root<S>>(on: Lanes<S, R>, points: &[[f64; 3]], per_unit:
     coordinates
 }
 
+impl<S: Simd> Tile<S> {
+    /// Of nothing.
+    #[inline(always)]
+    pub fn new<R: Root<S>>(on: Lanes<S, R>) -> Self {
+        Self { sum: [on.splat(0.0); 3], n: 0 }
+    }
+}
+
 impl<S: Simd> Total<S> {
+    /// Of nothing.
+    #[inline(always)]
+    pub fn new<R: Root<S>>(on: Lanes<S, R>) -> Self {
+        Self { sum: [on.splat(0.0); 3], rest: [on.splat(0.0); 3] }
+    }
+
     /// Adds a tile; an empty one comes back.
     #[inline(always)]
-    fn add<R: Root<S>>(&mut self, on: Lanes<S, R>, tile: Tile<S>) -> Tile<S> {
+    pub fn add<R: Root<S>>(&mut self, on: Lanes<S, R>, tile: Tile<S>) -> Tile<S> {
         for axis in 0..3 {
             let added = on.add(tile.sum[axis], self.rest[axis]);
             let sum = on.add(self.sum[axis], added);
             self.rest[axis] = on.sub(added, on.sub(sum, self.sum[axis]));
             self.sum[axis] = sum;
         }
-        Tile { sum: [on.splat(0.0); 3], n: 0 }
+        Tile::new(on)
     }
 
     /// Adds the lanes to `velocity`.
     #[inline(always)]
-    fn scatter(&self, velocity: &mut [[f64; 3]]) {
+    pub fn scatter(&self, velocity: &mut [[f64; 3]]) {
         for axis in 0..3 {
             let (sum, rest) = (self.sum[axis], self.rest[axis]);
             let sum: &[f32] = cast_slice(std::slice::from_ref(&sum));
@@ -115,7 +134,7 @@ impl<S: Simd> Total<S> {
 
 /// Adds what `strands` with the pieces of `single` induce at `points`, through the tile that is begun; the one left unfinished.
 #[inline(always)]
-fn over_sources<S: Simd, R: Root<S>, const TO_SEGMENT: bool>(
+pub(in crate::vortex) fn over_sources<S: Simd, R: Root<S>, const TO_SEGMENT: bool>(
     on: Lanes<S, R>,
     points: &Vectors<S>,
     strands: &[Strand],
@@ -181,7 +200,7 @@ fn cross<S: Simd, R: Root<S>>(on: Lanes<S, R>, a: &Vectors<S>, b: &Vectors<S>) -
 
 /// The same vector for all points.
 #[inline(always)]
-fn splats<S: Simd, R: Root<S>>(on: Lanes<S, R>, a: &[f32; 3]) -> Vectors<S> {
+pub(in crate::vortex) fn splats<S: Simd, R: Root<S>>(on: Lanes<S, R>, a: &[f32; 3]) -> Vectors<S> {
     [on.splat(a[0]), on.splat(a[1]), on.splat(a[2])]
 }
 

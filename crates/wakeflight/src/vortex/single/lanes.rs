@@ -1,17 +1,18 @@
 //! Arithmetic on vectors of single-precision numbers, one for each point, and the instruction sets it runs on.
 
 use crate::numerics::instruction_set::InstructionSet;
+use crate::vortex::arithmetic::Arithmetic;
 use pulp::{Scalar, Simd, WithSimd};
 
 /// Twice one over the square root of positive, finite numbers.
-pub(super) trait Root<S: Simd>: Copy {
+pub(in crate::vortex) trait Root<S: Simd>: Copy {
     /// To some units of the last place.
     fn twice_reciprocal_sqrt(self, on: Lanes<S, Self>, x: S::f32s) -> S::f32s;
 }
 
 /// Operations on vectors of `S`, with roots by `R`.
 #[derive(Clone, Copy)]
-pub(super) struct Lanes<S, R> {
+pub(in crate::vortex) struct Lanes<S, R> {
     simd: S,
     root: R,
 }
@@ -76,6 +77,39 @@ impl<S: Simd, R: Root<S>> Lanes<S, R> {
     }
 }
 
+impl<S: Simd, R: Root<S>> Arithmetic for Lanes<S, R> {
+    type Vector = S::f32s;
+    type Number = f32;
+    #[inline(always)]
+    fn constant(self, x: f64) -> S::f32s {
+        self.simd.splat_f32s(x as f32)
+    }
+    #[inline(always)]
+    fn splat(self, x: f32) -> S::f32s {
+        self.simd.splat_f32s(x)
+    }
+    #[inline(always)]
+    fn add(self, a: S::f32s, b: S::f32s) -> S::f32s {
+        self.simd.add_f32s(a, b)
+    }
+    #[inline(always)]
+    fn mul(self, a: S::f32s, b: S::f32s) -> S::f32s {
+        self.simd.mul_f32s(a, b)
+    }
+    #[inline(always)]
+    fn mul_add(self, a: S::f32s, b: S::f32s, c: S::f32s) -> S::f32s {
+        self.simd.mul_add_e_f32s(a, b, c)
+    }
+    #[inline(always)]
+    fn sub_mul(self, c: S::f32s, a: S::f32s, b: S::f32s) -> S::f32s {
+        self.simd.negate_mul_add_e_f32s(a, b, c)
+    }
+    #[inline(always)]
+    fn reciprocal_sqrt(self, a: S::f32s) -> S::f32s {
+        self.simd.mul_f32s(self.simd.splat_f32s(0.5), self.root.twice_reciprocal_sqrt(self, a))
+    }
+}
+
 /// The instructions for root and division.
 #[derive(Clone, Copy)]
 pub(super) struct Exact;
@@ -94,7 +128,7 @@ fn refined<S: Simd, R: Root<S>>(on: Lanes<S, R>, x: S::f32s, estimate: S::f32s) 
 }
 
 /// A computation on the lanes of any instruction set.
-pub(super) trait OverLanes {
+pub(in crate::vortex) trait OverLanes {
     /// Runs on lanes of `S` with roots by `R`; must be inlined.
     fn run<S: Simd, R: Root<S>>(self, simd: S, root: R);
 }
@@ -111,7 +145,7 @@ impl<T: OverLanes> WithSimd for Plain<T> {
 }
 
 /// Runs `task` on the given lanes; a set that is missing falls back to the next narrower one.
-pub(super) fn run<T: OverLanes>(task: T, instruction_set: InstructionSet) {
+pub(in crate::vortex) fn run<T: OverLanes>(task: T, instruction_set: InstructionSet) {
     match instruction_set {
         InstructionSet::Scalar => Scalar.vectorize(Plain(task)),
         InstructionSet::Vector => wide::vector(task),

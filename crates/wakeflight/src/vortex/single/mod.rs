@@ -4,13 +4,13 @@
 //! known to 6e-8 of the unit times its distance from the origin, and a velocity to that times the gradient of the velocity beside
 //! a core: some 1e-6 of the largest velocity for cores of a hundredth of the unit. Core of Vatistas n = 2 alone.
 
-mod kernel;
-mod lanes;
+pub(super) mod kernel;
+pub(super) mod lanes;
 mod packed;
 #[cfg(test)]
 mod tests;
 
-pub(super) use packed::{SinglePart, SingleStrands};
+pub(super) use packed::{LEAST_CORE, SinglePart, SingleStrands};
 
 use super::core::CoreDistance;
 use super::induced_velocity::over_groups;

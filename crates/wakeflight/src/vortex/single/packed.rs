@@ -3,7 +3,7 @@
 /// Farthest place from the origin, in units of length: beyond it, where a wake induces nothing any more, places are taken there.
 pub(super) const FARTHEST: f32 = 1e4;
 /// Least core radius in units of length: places are known to a tenth of it and better within a unit's distance.
-pub(super) const LEAST_CORE: f32 = 1e-5;
+pub(in crate::vortex) const LEAST_CORE: f32 = 1e-5;
 /// Square of the length, in units of length, below which a segment has none.
 const LEAST_LENGTH_SQ: f32 = 1e-18;
 /// Largest circulation over 16 pi and the unit of length [m/s]: products stay finite.

@@ -1,7 +1,7 @@
 //! Segments in a tree of cells, each with the expansion of what it holds.
 
 use super::harmonics::{Moments, N_COEFFICIENTS};
-use super::order::{bounds, distance, middle, split};
+use super::order::{bounds, middle, split, square_of_distance};
 use crate::vortex::sources::Part;
 use crate::vortex::strands::{Strand, Strands};
 use std::ops::Range;
@@ -51,6 +51,8 @@ struct Given<'a> {
     sources: Part<'a>,
     start: Vec<[f64; 3]>,
     middle: Vec<[f64; 3]>,
+    /// |circulation| length / (4 pi).
+    strength: Vec<f64>,
 }
 
 impl Cells {
@@ -71,7 +73,8 @@ impl Cells {
             .map(|(from, piece)| std::array::from_fn(|c| 0.5 * (from[c] + piece.end[c])))
             .collect();
         let mut order: Vec<usize> = (0..start.len()).collect();
-        let given = Given { sources, start, middle };
+        let strength = sources.pieces.iter().map(|p| p.strength.abs() * p.length_sq.sqrt()).collect();
+        let given = Given { sources, start, middle, strength };
         let mut tree = Self { sources: Strands::with_capacity(order.len()), ..Self::default() };
         if !order.is_empty() {
             tree.add_cell(&given, &mut order);
@@ -84,12 +87,14 @@ impl Cells {
         let piece = |i: usize| &given.sources.pieces[i];
         let centre = middle(bounds(order.iter().flat_map(|i| [given.start[*i], piece(*i).end])));
         let mut cell = Cell { centre, radius: 0.0, strength: 0.0, core_radius: 0.0, next: 0, leaf: None };
+        let (mut radius_sq, mut core_sq) = (0.0f64, 0.0f64);
         for &i in order.iter() {
-            let end = distance(centre, given.start[i]).max(distance(centre, piece(i).end));
-            cell.radius = cell.radius.max(end);
-            cell.strength += piece(i).strength.abs() * piece(i).length_sq.sqrt();
-            cell.core_radius = cell.core_radius.max(piece(i).core_sq.sqrt());
+            let ends = [given.start[i], piece(i).end].map(|end| square_of_distance(centre, end));
+            radius_sq = radius_sq.max(ends[0]).max(ends[1]);
+            core_sq = core_sq.max(piece(i).core_sq);
+            cell.strength += given.strength[i];
         }
+        (cell.radius, cell.core_radius) = (radius_sq.sqrt(), core_sq.sqrt());
         let index = self.cells.len();
         self.cells.push(cell);
         self.coefficients.push([0.0; N_COEFFICIENTS]);

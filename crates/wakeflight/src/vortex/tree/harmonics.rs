@@ -18,6 +18,14 @@ const COUNT: usize = (DEGREE + 1) * (DEGREE + 2) / 2;
 /// Real coefficients of the velocity of a cell, three components together.
 pub(super) const N_COEFFICIENTS: usize = 3 * (VELOCITY_DEGREE * (VELOCITY_DEGREE + 2));
 
+/// Degree n of each of these coefficients, in their order.
+pub(super) fn degrees() -> impl Iterator<Item = usize> {
+    (0..=VELOCITY_DEGREE).flat_map(|m| {
+        let numbers = if m == 0 { 3 } else { 6 };
+        (m.max(1)..=VELOCITY_DEGREE).flat_map(move |n| std::iter::repeat_n(n, numbers))
+    })
+}
+
 /// Complex number: real and imaginary part.
 type Complex = [f64; 2];
 
@@ -173,12 +181,13 @@ impl Moments {
     }
 }
 
-/// Bound of what the expansion leaves out of the velocity of sources of total strength S within radius a, at distance
-/// d > a: S / d^2 times this, of ratio = a / d.
+/// Bound of what the expansion to degree p leaves out of the velocity of sources of total strength S within radius a, at
+/// distance d > a: S / d^2 times this, of ratio = a / d.
 ///
 /// A source's part of degree n is at most (n + 1) a^n / d^(n + 2), since P_n^2 + sin^2 P_n'^2 / (n (n + 1)) <= 1; summed
 /// over n > p it is ratio^(p + 1) ((p + 2) - (p + 1) ratio) / (1 - ratio)^2.
-pub(super) fn remainder(ratio: f64) -> f64 {
-    let p = DEGREE as f64;
-    ratio.powi(DEGREE as i32 + 1) * ((p + 2.0) - (p + 1.0) * ratio) / ((1.0 - ratio) * (1.0 - ratio))
+pub(super) fn remainder(p: usize, ratio: f64) -> f64 {
+    let order = p as f64;
+    let power = (0..p).fold(ratio, |power, _| power * ratio);
+    power * ((order + 2.0) - (order + 1.0) * ratio) / ((1.0 - ratio) * (1.0 - ratio))
 }

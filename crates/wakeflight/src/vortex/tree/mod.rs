@@ -1,15 +1,19 @@
 //! Sums over many segments at many points, at a cost near N log N: far cells by their multipoles, near ones exactly.
 //!
-//! Segments are divided into cells; what a cell induces far away follows from the multipoles of its vector potential
-//! (harmonics.rs) up to degree 4. Points are gathered into blocks of neighbours. A block takes a cell by its expansion
-//! where the estimated error of that cell is below a fraction of the largest velocity found, and goes into the cell
-//! otherwise; what is not far is summed segment by segment with its core, as the direct sum does.
+//! Segments are divided into cells (cells.rs); what a cell induces far away follows from the multipoles of its vector potential
+//! (harmonics.rs) up to degree 4, or a lower one where it is far enough. Points are gathered into blocks of neighbours
+//! (blocks.rs). A block takes a cell by its expansion where the estimated error of that cell is below a fraction of the largest
+//! velocity found, and goes into the cell otherwise (lists.rs); what is not far is summed segment by segment with its core, as the
+//! direct sum does: in single precision (in_single.rs) where rounding is a small part of the tolerance, else in double (sum.rs).
 //! Same bits for any number of threads. Unlike in the direct sum a point's result depends, within the tolerance, on
 //! which other points it is asked with.
 
+mod blocks;
 mod cells;
 mod far_field;
 mod harmonics;
+mod in_single;
+mod lists;
 mod order;
 mod sum;
 #[cfg(test)]
@@ -19,9 +23,12 @@ use super::core::{Core, CoreDistance};
 use super::induced_velocity::{Filaments, Segments, add_groups_velocity};
 use super::models::for_core;
 use super::sources::{Group, Part};
+use blocks::Blocks;
 use cells::Cells;
+use in_single::SingleCells;
+use lists::{Acceptance, Found};
 use serde::{Deserialize, Serialize};
-use sum::{Acceptance, Found, TreeSum};
+use sum::TreeSum;
 
 /// How a sum over segments is taken.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
@@ -29,19 +36,35 @@ use sum::{Acceptance, Found, TreeSum};
 pub enum Method {
     /// Every segment at every point, exact to rounding.
     Direct,
-    /// By the tree; `tolerance` [-]: error allowed, over the largest induced velocity at the points.
+    /// By the tree.
     Tree {
         /// Error allowed over the largest induced velocity at the points.
         tolerance: f64,
+        /// What sums are taken in.
+        #[serde(default)]
+        numbers: Numbers,
     },
     /// By the tree where it was measured to be faster, see [`tree_is_faster`]; else direct.
     Auto {
         /// As of the tree.
         tolerance: f64,
-        /// Whether the direct sum is the one in single precision; the tree is in double.
+        /// What sums are taken in.
         #[serde(default)]
-        single: bool,
+        numbers: Numbers,
     },
+}
+
+/// Precision of the numbers that sums are taken in.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Numbers {
+    /// Double.
+    Double,
+    /// The direct sum in double, the tree in single where rounding is a small part of its tolerance.
+    #[default]
+    Tolerance,
+    /// Single, the tree where rounding is a small part of its tolerance.
+    Single,
 }
 
 impl Method {
@@ -49,13 +72,21 @@ impl Method {
     #[must_use]
     pub fn tree(self, n_points: usize, n_segments: usize) -> Option<f64> {
         match self {
-            Self::Tree { tolerance } => Some(tolerance),
-            Self::Auto { tolerance, single } => {
-                tree_is_faster(n_points, n_segments, single).then_some(tolerance)
+            Self::Tree { tolerance, .. } => Some(tolerance),
+            Self::Auto { tolerance, numbers } => {
+                tree_is_faster(n_points, n_segments, numbers).then_some(tolerance)
             }
             Self::Direct => None,
         }
         .filter(|_| n_points > 0 && n_segments > 0)
+    }
+
+    /// Whether the tree may sum in single precision.
+    fn tree_in_single(self) -> bool {
+        match self {
+            Self::Tree { numbers, .. } | Self::Auto { numbers, .. } => numbers != Numbers::Double,
+            Self::Direct => false,
+        }
     }
 }
 
@@ -76,9 +107,14 @@ pub struct Account {
     pub truncation_bound: f64,
 }
 
-/// Points and segments from whose product on the tree is faster, where there are as many of each: than the direct sum in double
-/// precision, and than that in single precision.
-const CROSSOVER: [f64; 2] = [4096.0, 32768.0];
+/// Points and segments from whose product on the tree is faster, where there are as many of each.
+fn crossover(numbers: Numbers) -> f64 {
+    match numbers {
+        Numbers::Double => 4096.0,
+        Numbers::Tolerance => 2048.0,
+        Numbers::Single => 8192.0,
+    }
+}
 /// Points from which on a tree can be worth it, whatever the number of segments, and the reverse.
 const LEAST: usize = 512;
 /// Points at which the direct sum tells how large velocities are.
@@ -88,12 +124,11 @@ const SAMPLES: usize = 64;
 const SHARE: f64 = 0.5;
 
 /// Whether the tree is faster at its default tolerance: measured on one core for wakes of helical filaments and for full-span
-/// lattices (two segments for each point), where 3200 are as fast either way, and 28 000 (AVX-512) to 40 000 (AVX2) against a
-/// direct sum in single precision.
+/// lattices (two segments for each point).
 #[must_use]
-pub fn tree_is_faster(n_points: usize, n_segments: usize, single: bool) -> bool {
+pub fn tree_is_faster(n_points: usize, n_segments: usize, numbers: Numbers) -> bool {
     let both = (n_points as f64) * (n_segments as f64);
-    n_points.min(n_segments) >= LEAST && both >= CROSSOVER[usize::from(single)].powi(2)
+    n_points.min(n_segments) >= LEAST && both >= crossover(numbers).powi(2)
 }
 
 /// Adds to `velocity` the velocity that `filaments` induce at `points` [m/s], by the method of choice.
@@ -148,9 +183,20 @@ pub fn add_part_velocity_by(
     let largest = sampled.iter().fold(0.0f64, |m, v| m.max(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])).sqrt();
 
     let cells = Cells::new(part);
+    let blocks = Blocks::new(points);
     let acceptance = Acceptance { core, core_distance, tolerance: SHARE * tolerance * largest };
-    let mut found = Found::default();
-    for_core(core, core_distance, TreeSum { points, cells: &cells, acceptance, velocity, found: &mut found });
+    let single = (method.tree_in_single() && SingleCells::knows(core))
+        .then(|| SingleCells::new(&cells, &blocks, tolerance))
+        .flatten();
+    let found = match single {
+        Some(single) => single.add(&blocks, acceptance, velocity),
+        None => {
+            let mut found = Found::default();
+            let sum = TreeSum { blocks: &blocks, cells: &cells, acceptance, velocity, found: &mut found };
+            for_core(core, core_distance, sum);
+            found
+        }
+    };
     Account {
         segment_evaluations: for_sample + found.near,
         cell_evaluations: found.far,

@@ -14,8 +14,13 @@ pub(super) fn middle((low, high): ([f64; 3], [f64; 3])) -> [f64; 3] {
 
 /// Distance of two points.
 pub(super) fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    square_of_distance(a, b).sqrt()
+}
+
+/// Its square.
+pub(super) fn square_of_distance(a: [f64; 3], b: [f64; 3]) -> f64 {
     let d: [f64; 3] = std::array::from_fn(|c| a[c] - b[c]);
-    (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt()
+    d[0] * d[0] + d[1] * d[1] + d[2] * d[2]
 }
 
 /// Moves the `at` lowest entries along the longest side of the box around `points` to the front.

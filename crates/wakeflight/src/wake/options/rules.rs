@@ -5,7 +5,7 @@ use super::describe::short;
 use super::rotor::WakeRotor;
 use crate::airfoil::unsteady::Model as Unsteady;
 use crate::vortex::sources::Packing;
-use crate::vortex::tree::Method;
+use crate::vortex::tree::{Method, Numbers};
 use crate::wake::choices::{
     BladeModel, FarWake, Form, InboardWake, Precision, ShedWake, Summation, Trailers,
 };
@@ -80,14 +80,18 @@ impl WakeOptions {
     /// How the vortices are summed at the markers.
     pub(crate) fn method(&self) -> Method {
         let tolerance = self.tree_tolerance;
+        let numbers = match self.precision {
+            Precision::Double => Numbers::Double,
+            Precision::Single => Numbers::Single,
+        };
         match self.summation {
-            Summation::Auto => Method::Auto { tolerance, single: self.precision == Precision::Single },
+            Summation::Auto => Method::Auto { tolerance, numbers },
             Summation::Direct => Method::Direct,
-            Summation::Tree => Method::Tree { tolerance },
+            Summation::Tree => Method::Tree { tolerance, numbers },
         }
     }
 
-    /// What the vortices are packed for; the tree, where it sums at the markers, does so in double precision.
+    /// What the vortices are packed for; the tree, where it sums at the markers, is made of those in double precision.
     pub(crate) fn packing(&self, by_tree: bool) -> Packing {
         match self.precision {
             Precision::Double => Packing::Double,
