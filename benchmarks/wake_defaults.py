@@ -58,6 +58,8 @@ CANDIDATES = {
     "max, sheet, near wake 15 deg": {"tip_strength": "max", "inboard_wake": "sheet", "near_wake_angle": "15 deg"},
     "max, sheet, near wake 60 deg": {"tip_strength": "max", "inboard_wake": "sheet", "near_wake_angle": "60 deg"},
 }
+DEFAULT = {"standard": {"trailers": "full-span", "n_trailers": 3, "turns": 2.0, "far_wake_turns": 2}}
+"""The wake that is the default, beside those of a lone tip vortex."""
 VARIATIONS = {
     "core 0.01 R": {"core_radius": 0.01},
     "core 0.05 R": {"core_radius": 0.05},
@@ -81,6 +83,7 @@ def groups() -> dict[str, list[tuple[str, str, dict]]]:
     """Cases (condition, name, options) by group; the dear ones last."""
     table: dict[str, list[tuple[str, str, dict]]] = {
         "candidates": [(c, name, options) for c in CONDITIONS for name, options in CANDIDATES.items()],
+        "default": [("baseline", name, options) for name, options in DEFAULT.items()],
         "variations": [("baseline", name, options) for name, options in VARIATIONS.items()],
         "judges": [(c, "full-span", {}) for c in CONDITIONS],
         "judge": [("baseline", name, options) for name, options in JUDGES.items()],
