@@ -18,6 +18,8 @@ pub(super) trait Arithmetic: Copy {
     fn mul_add(self, a: Self::Vector, b: Self::Vector, c: Self::Vector) -> Self::Vector;
     /// c - a b.
     fn sub_mul(self, c: Self::Vector, a: Self::Vector, b: Self::Vector) -> Self::Vector;
+    /// The larger.
+    fn max(self, a: Self::Vector, b: Self::Vector) -> Self::Vector;
     /// One over the square root of positive numbers.
     fn reciprocal_sqrt(self, a: Self::Vector) -> Self::Vector;
 }

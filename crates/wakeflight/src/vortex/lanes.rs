@@ -123,6 +123,10 @@ impl<S: Simd, R: Roots<S>> Arithmetic for Lanes<S, R> {
         self.simd.negate_mul_add_e_f64s(a, b, c)
     }
     #[inline(always)]
+    fn max(self, a: S::f64s, b: S::f64s) -> S::f64s {
+        self.simd.max_f64s(a, b)
+    }
+    #[inline(always)]
     fn reciprocal_sqrt(self, a: S::f64s) -> S::f64s {
         self.roots.reciprocal_sqrt(self, a)
     }

@@ -105,6 +105,10 @@ impl<S: Simd, R: Root<S>> Arithmetic for Lanes<S, R> {
         self.simd.negate_mul_add_e_f32s(a, b, c)
     }
     #[inline(always)]
+    fn max(self, a: S::f32s, b: S::f32s) -> S::f32s {
+        self.simd.max_f32s(a, b)
+    }
+    #[inline(always)]
     fn reciprocal_sqrt(self, a: S::f32s) -> S::f32s {
         self.simd.mul_f32s(self.simd.splat_f32s(0.5), self.root.twice_reciprocal_sqrt(self, a))
     }

@@ -10,7 +10,7 @@ mod packed;
 #[cfg(test)]
 mod tests;
 
-pub(super) use packed::{LEAST_CORE, SinglePart, SingleStrands};
+pub(super) use packed::{SinglePart, SingleStrands, within_range};
 
 use super::core::CoreDistance;
 use super::induced_velocity::over_groups;

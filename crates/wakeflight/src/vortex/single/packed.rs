@@ -3,7 +3,7 @@
 /// Farthest place from the origin, in units of length: beyond it, where a wake induces nothing any more, places are taken there.
 pub(super) const FARTHEST: f32 = 1e4;
 /// Least core radius in units of length: places are known to a tenth of it and better within a unit's distance.
-pub(in crate::vortex) const LEAST_CORE: f32 = 1e-5;
+pub(super) const LEAST_CORE: f32 = 1e-5;
 /// Square of the length, in units of length, below which a segment has none.
 const LEAST_LENGTH_SQ: f32 = 1e-18;
 /// Largest circulation over 16 pi and the unit of length [m/s]: products stay finite.
@@ -44,6 +44,13 @@ pub(in crate::vortex) struct SinglePart<'a> {
     pub(super) starts: &'a [[f32; 3]],
     /// Pieces of all strands, one strand after the other.
     pub(super) pieces: &'a [SinglePiece],
+}
+
+/// Whether a core radius over the unit of length, and a circulation over the same [m/s], are packed as they are.
+pub(in crate::vortex) fn within_range(core_radius: f64, circulation: f64) -> bool {
+    let strength = circulation.abs() / (16.0 * std::f64::consts::PI);
+    (f64::from(LEAST_CORE)..=f64::from(FARTHEST)).contains(&core_radius)
+        && strength <= f64::from(MOST_STRENGTH)
 }
 
 /// A place over the unit of length; not a number stays not a number.

@@ -18,17 +18,19 @@ const BACK: [[f64; VELOCITY_DEGREE + 1]; VELOCITY_DEGREE + 1] = {
     back
 };
 
-/// Adds sum over n <= `HIGHEST` and m of the coefficients times I_n^m / (2 n - 1)!! at `separation` from the centre, not zero.
+/// Adds sum over n <= `HIGHEST` and m of the coefficients times I_n^m / (2 n - 1)!! at `separation` from the centre, whose square is
+/// at least `least_square`.
 #[inline(always)]
 pub(super) fn over_harmonics<A: Arithmetic, const HIGHEST: usize>(
     on: A,
     separation: &[A::Vector; 3],
+    least_square: f64,
     coefficients: &[A::Number; N_COEFFICIENTS],
     sum: &mut [A::Vector; 3],
 ) {
     let [x, y, z] = *separation;
     let distance_sq = on.mul_add(x, x, on.mul_add(y, y, on.mul(z, z)));
-    let inverse = on.reciprocal_sqrt(distance_sq);
+    let inverse = on.reciprocal_sqrt(on.max(distance_sq, on.constant(least_square)));
     let inverse_sq = on.mul(inverse, inverse);
     let x = on.mul(x, inverse_sq);
     let y = on.mul(y, inverse_sq);

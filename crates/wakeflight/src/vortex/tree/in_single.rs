@@ -1,9 +1,8 @@
 //! The sum over a tree in single precision, core of Vatistas n = 2: twice the lanes, half the memory.
 //!
-//! Places are seen from the middle of a leaf or of a block, where they are small, instead of from an origin far away: what
-//! rounding leaves of a place is 6e-8 of the size of a leaf and a block, and of a velocity that over the core radius. Lengths are over
-//! the radius of the largest cell, circulations over the largest one; in the expansions lengths are over the radius of the
-//! cell, so that powers keep within range.
+//! Places are seen from the middle of a cell, where they are small, instead of from an origin far away, and lengths are over its
+//! radius: a wake may hold very fine parts. Circulations are over the largest one. A block where rounding could take more than a
+//! small part of the tolerance (rounding.rs) is summed in double precision.
 
 use super::blocks::{Block, Blocks};
 use super::cells::Cells;
@@ -11,27 +10,33 @@ use super::far_field::over_harmonics;
 use super::harmonics::{N_COEFFICIENTS, VELOCITY_DEGREE, degrees};
 use super::lists::{Acceptance, Found, Lists, over_blocks};
 use super::order::distance;
+use super::rounding::{Swirl, rounded_off};
+use super::sum::add_block;
 use crate::numerics::instruction_set::InstructionSet;
 use crate::vortex::core::{Core, CoreDistance};
+use crate::vortex::models::Vatistas2;
 use crate::vortex::single::kernel::{Tile, Total, Vectors, gathered, over_sources, splats};
 use crate::vortex::single::lanes::{Lanes, OverLanes, Root, run};
-use crate::vortex::single::{LEAST_CORE, SingleStrands};
+use crate::vortex::single::{SingleStrands, within_range};
 use pulp::Simd;
 
-/// Rounding of a place over its distance, doubled: that of the place seen and of the one it is seen from.
-const ROUNDING: f64 = 1.2e-7;
-/// Share of the tolerance that rounding may take.
-const SHARE_OF_ROUNDING: f64 = 0.05;
-/// Largest place of a point from the middle of its block, and largest core radius, over the radius of the largest cell.
+/// Share of the error allowed of a cell that rounding may take at a point.
+const SHARE_OF_ROUNDING: f64 = 0.1;
+/// Largest place of a point from the middle of its block over the radius of the largest cell.
 const LARGEST: f64 = 1e3;
 /// Farthest point, over the same.
 const FARTHEST: f64 = 1e8;
+/// Square of the least distance from a cell that is taken by its expansion, over its radius; it is more than one but for rounding.
+const LEAST_SQUARE: f64 = 0.5;
+/// Smallest cell, over the same.
+const SMALLEST: f64 = 1e-9;
 
 /// The cells of a tree once more in single precision.
 pub(super) struct SingleCells<'a> {
     cells: &'a Cells,
     coefficients: Vec<[f32; N_COEFFICIENTS]>,
     sources: SingleStrands,
+    swirls: Vec<Swirl>,
     /// Radius of the largest cell [m].
     unit: f64,
     /// Velocity of the largest circulation over the unit of length [m/s].
@@ -39,8 +44,8 @@ pub(super) struct SingleCells<'a> {
 }
 
 impl<'a> SingleCells<'a> {
-    /// None where rounding would take more of the relative error `tolerance` than a small part, or numbers are out of range.
-    pub fn new(cells: &'a Cells, blocks: &Blocks, tolerance: f64) -> Option<Self> {
+    /// None where numbers are out of range.
+    pub fn new(cells: &'a Cells, blocks: &Blocks) -> Option<Self> {
         let largest = cells.cells.first()?;
         let unit = largest.radius;
         let strength = cells.sources.pieces.iter().fold(0.0f64, |most, piece| most.max(piece.strength.abs()));
@@ -49,11 +54,11 @@ impl<'a> SingleCells<'a> {
             reach = reach.max(block.reach);
             farthest = farthest.max(distance(block.middle, largest.centre));
         }
-        let fits = unit > 0.0
+        let fits = unit > SMALLEST * distance(largest.centre, [0.0; 3])
             && strength > 0.0
             && reach <= LARGEST * unit
             && farthest <= FARTHEST * unit
-            && largest.core_radius <= LARGEST * unit;
+            && cells.cells.iter().all(|cell| cell.radius >= SMALLEST * unit);
         if !fits {
             return None;
         }
@@ -61,51 +66,58 @@ impl<'a> SingleCells<'a> {
         sources.clear(Some(unit));
         // a circulation of 4 pi units becomes one
         let circulation = 4.0 * std::f64::consts::PI * unit / strength;
-        for cell in &cells.cells {
+        let mut swirls = Swirl::of_all(cells);
+        for (cell, swirl) in cells.cells.iter().zip(&mut swirls) {
             let Some(leaf) = &cell.leaf else { continue };
-            let allowed = ROUNDING * (cell.radius + reach) / (SHARE_OF_ROUNDING * tolerance);
-            let least_core = allowed.max(f64::from(LEAST_CORE) * unit);
-            let seen = |place: [f64; 3]| std::array::from_fn(|c| place[c] - cell.centre[c]);
+            // packed over the unit, lengths become those over the radius
+            let finer = unit / cell.radius;
+            let seen = |place: [f64; 3]| std::array::from_fn(|c| finer * (place[c] - cell.centre[c]));
             let mut pieces = cells.sources.pieces[leaf.pieces.clone()].iter();
             for strand in &cells.sources.strands[leaf.strands.clone()] {
                 let mut from = strand.start;
                 for (i, piece) in pieces.by_ref().take(strand.n_pieces).enumerate() {
-                    let core_radius = piece.core_sq.sqrt();
-                    if core_radius < least_core && piece.strength != 0.0 {
-                        return None;
+                    let (core_radius, gamma) =
+                        (finer * piece.core_sq.sqrt(), finer * circulation * piece.strength);
+                    if !within_range(core_radius / unit, gamma / unit) {
+                        *swirl = Swirl::UNKNOWN;
                     }
                     let ends = [seen(from), seen(piece.end)];
-                    sources.push(ends, circulation * piece.strength, core_radius, i == 0);
+                    sources.push(ends, gamma, core_radius, i == 0);
                     from = piece.end;
                 }
             }
         }
         let mut coefficients = Vec::with_capacity(cells.coefficients.len());
         for (cell, of_cell) in cells.cells.iter().zip(&cells.coefficients) {
-            let per_radius = if cell.radius > 0.0 { 1.0 / cell.radius } else { 1.0 / unit };
-            let scaled = scaled(of_cell, per_radius, unit / strength);
+            let scaled = scaled(of_cell, 1.0 / cell.radius, unit / strength);
             if !scaled.iter().all(|c| c.is_finite()) {
                 return None;
             }
             coefficients.push(scaled);
         }
-        Some(Self { cells, coefficients, sources, unit, unit_velocity: strength / unit })
+        Some(Self { cells, coefficients, sources, swirls, unit, unit_velocity: strength / unit })
     }
 
     /// As [`TreeSum`](super::sum::TreeSum).
     pub fn add(&self, blocks: &Blocks, acceptance: Acceptance, velocity: &mut [[f64; 3]]) -> Found {
         let set = InstructionSet::in_use();
         over_blocks(blocks, self.cells, acceptance, velocity, |block: &Block<'_>, lists, velocity| {
+            let to_segment = acceptance.core_distance == CoreDistance::Segment;
+            let rounded_off = rounded_off(block, lists, self.cells, &self.swirls);
+            if rounded_off.is_nan() || rounded_off > SHARE_OF_ROUNDING * acceptance.tolerance {
+                return if to_segment {
+                    add_block::<Vatistas2, true>(block, self.cells, lists, velocity, set);
+                } else {
+                    add_block::<Vatistas2, false>(block, self.cells, lists, velocity, set);
+                };
+            }
             let points: Vec<[f64; 3]> =
                 block.points.iter().map(|p| std::array::from_fn(|c| p[c] - block.middle[c])).collect();
             let (cells, middle) = (self, block.middle);
-            match acceptance.core_distance {
-                CoreDistance::Line => {
-                    run(BlockSum::<false> { points: &points, middle, cells, lists, velocity }, set)
-                }
-                CoreDistance::Segment => {
-                    run(BlockSum::<true> { points: &points, middle, cells, lists, velocity }, set)
-                }
+            if to_segment {
+                run(BlockSum::<true> { points: &points, middle, cells, lists, velocity }, set);
+            } else {
+                run(BlockSum::<false> { points: &points, middle, cells, lists, velocity }, set);
             }
             for v in velocity {
                 *v = v.map(|c| c * self.unit_velocity);
@@ -125,13 +137,11 @@ impl<'a> SingleCells<'a> {
         for &i in far {
             let cell = &self.cells.cells[i];
             let centre = from_middle(middle, cell.centre, 1.0 / self.unit);
-            let per_radius = if cell.radius > 0.0 { (self.unit / cell.radius) as f32 } else { 1.0 };
-            let per_radius = on.splat(per_radius);
+            let per_radius = (self.unit / cell.radius) as f32;
             for (points, _, total) in &mut *seen {
-                let at = seen_from(on, points, &centre);
-                let at = [on.mul(at[0], per_radius), on.mul(at[1], per_radius), on.mul(at[2], per_radius)];
+                let at = seen_from(on, points, &centre, per_radius);
                 let mut sum = Tile::new(on);
-                over_harmonics::<_, HIGHEST>(on, &at, &self.coefficients[i], &mut sum.sum);
+                over_harmonics::<_, HIGHEST>(on, &at, LEAST_SQUARE, &self.coefficients[i], &mut sum.sum);
                 total.add(on, sum);
             }
         }
@@ -176,9 +186,11 @@ impl<const TO_SEGMENT: bool> OverLanes for BlockSum<'_, TO_SEGMENT> {
         for &(leaf, i) in &self.lists.near {
             let Some(part) = sources.part(leaf.strands.clone(), leaf.pieces.clone()) else { continue };
             let strands = &cells.sources.strands[leaf.strands.start..leaf.strands.end];
-            let centre = from_middle(self.middle, cells.cells[i].centre, per_unit);
+            let cell = &cells.cells[i];
+            let centre = from_middle(self.middle, cell.centre, per_unit);
+            let per_radius = (unit / cell.radius) as f32;
             for (points, tile, total) in &mut seen {
-                let at = seen_from(on, points, &centre);
+                let at = seen_from(on, points, &centre, per_radius);
                 *tile = over_sources::<S, R, TO_SEGMENT>(on, &at, strands, part, *tile, total);
             }
         }
@@ -203,9 +215,18 @@ fn from_middle(middle: [f64; 3], place: [f64; 3], per_unit: f64) -> [f32; 3] {
     ]
 }
 
-/// Points seen from `centre`.
+/// Points seen from `centre`, times `per_radius`.
 #[inline(always)]
-fn seen_from<S: Simd, R: Root<S>>(on: Lanes<S, R>, points: &Vectors<S>, centre: &[f32; 3]) -> Vectors<S> {
-    let centre = splats(on, centre);
-    [on.sub(points[0], centre[0]), on.sub(points[1], centre[1]), on.sub(points[2], centre[2])]
+fn seen_from<S: Simd, R: Root<S>>(
+    on: Lanes<S, R>,
+    points: &Vectors<S>,
+    centre: &[f32; 3],
+    per_radius: f32,
+) -> Vectors<S> {
+    let (centre, per_radius) = (splats(on, centre), on.splat(per_radius));
+    [
+        on.mul(per_radius, on.sub(points[0], centre[0])),
+        on.mul(per_radius, on.sub(points[1], centre[1])),
+        on.mul(per_radius, on.sub(points[2], centre[2])),
+    ]
 }

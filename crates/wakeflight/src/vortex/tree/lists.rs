@@ -10,6 +10,8 @@ use crate::vortex::threads::share;
 /// Part of the error allowed of one cell below which what a lower degree leaves out must be: cells of full degree are spread below
 /// the limit, many of a lower one would lie at it.
 const SHARE_OF_LOWER: f64 = 0.25;
+/// Rounding of distances that a cell is kept away from a point, over what they are made of.
+const ROUNDED: f64 = 1e-12;
 /// Weight of errors that have one sign over those that cancel.
 const ONE_SIGN: f64 = 4.0;
 /// The same for the many cells of vortex sheets.
@@ -98,7 +100,7 @@ impl Acceptance {
 /// What a block has to know of a cell to place it.
 pub(super) struct Sight {
     centre: [f64; 3],
-    /// As of [`Acceptance::distances`].
+    /// As of [`Acceptance::distances`], and no less than rounding of a place; minus infinity where it induces nothing.
     from: [f64; DEGREE],
     /// Index after the last cell inside this one.
     next: usize,
@@ -107,8 +109,15 @@ pub(super) struct Sight {
 impl Sight {
     /// Of every cell.
     pub fn of_all(cells: &Cells, acceptance: Acceptance) -> Vec<Self> {
-        let of =
-            |cell: &Cell| Self { centre: cell.centre, from: acceptance.distances(cell), next: cell.next };
+        let of = |cell: &Cell| {
+            let least = ROUNDED * square_of_distance(cell.centre, [0.0; 3]).sqrt();
+            let from = if cell.strength == 0.0 {
+                [f64::NEG_INFINITY; DEGREE]
+            } else {
+                acceptance.distances(cell).map(|from| from.max(least))
+            };
+            Self { centre: cell.centre, from, next: cell.next }
+        };
         cells.cells.iter().map(of).collect()
     }
 }
@@ -119,6 +128,8 @@ pub(super) struct Lists<'a> {
     pub near: Vec<(&'a Leaf, usize)>,
     /// Indices of those taken by their expansion, by its degree, from 1 on.
     pub far: [Vec<usize>; DEGREE],
+    /// Sum of the squares of what rounding takes of cells of their strengths, over `OF_EXPANSION` [m2/s2].
+    pub far_squares: f64,
     /// What that costs and leaves out.
     pub found: Found,
 }
@@ -128,16 +139,26 @@ impl<'a> Lists<'a> {
     /// segment by segment.
     pub fn new(block: &Block<'_>, cells: &'a Cells, sights: &[Sight]) -> Self {
         let Block { points, middle, reach } = *block;
-        let mut lists = Self { near: Vec::new(), far: Default::default(), found: Found::default() };
+        let mut lists =
+            Self { near: Vec::new(), far: Default::default(), far_squares: 0.0, found: Found::default() };
         let mut i = 0;
         while let Some(sight) = sights.get(i) {
-            let least = sight.from[DEGREE - 1] + reach;
+            if sight.from[DEGREE - 1] == f64::NEG_INFINITY {
+                i = sight.next;
+                continue;
+            }
+            let least = (1.0 + ROUNDED) * (sight.from[DEGREE - 1] + reach);
             let distance_sq = square_of_distance(middle, sight.centre);
-            if distance_sq >= least * least {
-                let distance = distance_sq.sqrt() - reach;
+            if distance_sq > least * least {
+                let away = distance_sq.sqrt();
+                let distance = away - reach;
                 let lower = sight.from.iter().filter(|from| **from > distance).count().min(DEGREE - 1);
                 lists.far[lower].push(i);
-                lists.found.bound += bound(&cells.cells[i], lower + 1, distance);
+                let cell = &cells.cells[i];
+                lists.found.bound += bound(cell, lower + 1, distance);
+                // places seen from the middle of the block are known to rounding of how far they are
+                let most = cell.strength / (distance * distance) * (1.0 + 0.5 * (away + reach) / distance);
+                lists.far_squares += most * most;
                 lists.found.far += points.len() as u64;
                 i = sight.next;
                 continue;

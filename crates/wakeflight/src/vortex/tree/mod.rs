@@ -15,6 +15,7 @@ mod harmonics;
 mod in_single;
 mod lists;
 mod order;
+mod rounding;
 mod sum;
 #[cfg(test)]
 mod tests;
@@ -186,7 +187,7 @@ pub fn add_part_velocity_by(
     let blocks = Blocks::new(points);
     let acceptance = Acceptance { core, core_distance, tolerance: SHARE * tolerance * largest };
     let single = (method.tree_in_single() && SingleCells::knows(core))
-        .then(|| SingleCells::new(&cells, &blocks, tolerance))
+        .then(|| SingleCells::new(&cells, &blocks))
         .flatten();
     let found = match single {
         Some(single) => single.add(&blocks, acceptance, velocity),

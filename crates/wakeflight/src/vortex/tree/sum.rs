@@ -8,7 +8,7 @@ use super::lists::{Acceptance, Found, Lists, over_blocks};
 use crate::numerics::instruction_set::InstructionSet;
 use crate::vortex::dispatch::{OverLanes, run};
 use crate::vortex::kernel::{Vectors, gathered, over_sources, scattered, splats};
-use crate::vortex::lanes::{Lanes, Roots};
+use crate::vortex::lanes::{LEAST_SQUARE, Lanes, Roots};
 use crate::vortex::models::{ForModel, Model};
 use pulp::Simd;
 use std::marker::PhantomData;
@@ -36,11 +36,22 @@ impl ForModel for TreeSum<'_> {
             self.acceptance,
             self.velocity,
             |block: &Block<'_>, lists, velocity| {
-                let (points, model) = (block.points, PhantomData::<M>);
-                run(BlockSum::<M, TO_SEGMENT> { points, cells, lists, velocity, model }, instruction_set);
+                add_block::<M, TO_SEGMENT>(block, cells, lists, velocity, instruction_set);
             },
         );
     }
+}
+
+/// Adds what the lists of one block hold.
+pub(super) fn add_block<M: Model, const TO_SEGMENT: bool>(
+    block: &Block<'_>,
+    cells: &Cells,
+    lists: &Lists<'_>,
+    velocity: &mut [[f64; 3]],
+    instruction_set: InstructionSet,
+) {
+    let (points, model) = (block.points, PhantomData::<M>);
+    run(BlockSum::<M, TO_SEGMENT> { points, cells, lists, velocity, model }, instruction_set);
 }
 
 /// The sum of the lists of one block.
@@ -88,6 +99,6 @@ fn add_far<S: Simd, R: Roots<S>, const HIGHEST: usize>(
         let centre = splats(on, &cells.cells[i].centre);
         let separation =
             [on.sub(points[0], centre[0]), on.sub(points[1], centre[1]), on.sub(points[2], centre[2])];
-        over_harmonics::<_, HIGHEST>(on, &separation, &cells.coefficients[i], sum);
+        over_harmonics::<_, HIGHEST>(on, &separation, LEAST_SQUARE, &cells.coefficients[i], sum);
     }
 }

@@ -156,6 +156,25 @@ fn where_rounding_would_count_the_tree_sums_in_double_precision() {
     assert!(same(0.03, 1e-5), "a tolerance near rounding");
 }
 
+/// On the axis of a straight vortex the velocity is zero, and tiny beside it: what is rounded of a place would be more.
+#[test]
+fn where_all_velocities_are_tiny_beside_what_cores_could_do_the_error_is_small_beside_them() {
+    let mut filaments = Filaments::default();
+    let nodes: Vec<_> = (0..=200).map(|k| [0.01 * f64::from(k), 0.0, 0.3]).collect();
+    filaments.push(&nodes, &[1.0; 200], &[0.02; 200]);
+    for off in [1e-8, 1e-6, 1e-4, 1e-2] {
+        let points: Vec<_> = nodes.iter().map(|[x, y, z]| [*x, y + off * (7.0 * x).sin(), *z]).collect();
+        for distance in [CoreDistance::Line, CoreDistance::Segment] {
+            let (mut tree, mut direct) = (vec![[0.0; 3]; points.len()], vec![[0.0; 3]; points.len()]);
+            add_filaments_velocity_by(TREE, &points, &filaments, Core::Vatistas2, distance, &mut tree);
+            add_filaments_velocity(&points, &filaments, Core::Vatistas2, distance, &mut direct);
+            let largest = direct.iter().fold(0.0f64, |m, v| m.max(length(*v)));
+            let error = tree.iter().zip(&direct).fold(0.0f64, |m, (a, b)| m.max(length(difference(*a, *b))));
+            assert!(error < 5e-4 * largest, "{off} {distance:?}: {:e}", error / largest);
+        }
+    }
+}
+
 /// A cell of random segments within radius 1, and its moments about a centre.
 fn cell(seed: u64) -> (Segments, f64) {
     let mut numbers = Random(seed);
@@ -184,7 +203,7 @@ fn moments(segments: &Segments, centre: [f64; 3]) -> Moments {
 fn expansion(moments: &Moments, centre: [f64; 3], point: [f64; 3]) -> [f64; 3] {
     let on = Lanes::<Scalar, Exact>::new(Scalar::new(), Exact);
     let mut v = [0.0; 3];
-    over_harmonics::<_, VELOCITY_DEGREE>(on, &difference(point, centre), &moments.velocity(), &mut v);
+    over_harmonics::<_, VELOCITY_DEGREE>(on, &difference(point, centre), 1e-300, &moments.velocity(), &mut v);
     v
 }
 
@@ -286,4 +305,33 @@ fn few_segments_are_summed_directly_and_nothing_induces_nothing() {
     still.circulation.fill(0.0);
     add_filaments_velocity_by(TREE, &[[0.0; 3], [1.0; 3]], &still, core, distance, &mut none);
     assert_eq!(none, [[0.0; 3]; 2]);
+}
+
+/// Powers of lengths over the radius of a cell that is tiny, or a point, leave the range of single precision.
+#[test]
+fn tiny_cells_and_cells_without_extent_far_from_the_points_induce_finite_velocities() {
+    let mut numbers = Random(5);
+    for size in [1e-7, 1e-12, 0.0] {
+        let mut filaments = Filaments::default();
+        for _ in 0..40 {
+            let middle = numbers.point(1.0);
+            let size = if numbers.next() > 0.0 { size } else { 0.3 };
+            let nodes: Vec<_> = (0..30)
+                .map(|_| numbers.point(size))
+                .map(|off| [middle[0] + off[0], middle[1] + off[1], middle[2] + off[2]])
+                .collect();
+            filaments.push(&nodes, &[1.0; 29], &[2.0; 29]);
+        }
+        let mut points = filaments.nodes.clone();
+        points.extend((0..300).map(|_| numbers.point(3.0)));
+        for distance in [CoreDistance::Line, CoreDistance::Segment] {
+            let (mut tree, mut direct) = (vec![[0.0; 3]; points.len()], vec![[0.0; 3]; points.len()]);
+            add_filaments_velocity_by(TREE, &points, &filaments, Core::Vatistas2, distance, &mut tree);
+            add_filaments_velocity(&points, &filaments, Core::Vatistas2, distance, &mut direct);
+            let largest = direct.iter().fold(0.0f64, |m, v| m.max(length(*v)));
+            for (a, b) in tree.iter().zip(&direct) {
+                assert!(length(difference(*a, *b)) < 5e-4 * largest, "{size} {distance:?}: {a:?} {b:?}");
+            }
+        }
+    }
 }
