@@ -10,7 +10,7 @@ SETS = 200
 
 
 def filaments(rng, size):
-    """Tangled, wandering, wound, straight and coinciding ones, over six orders of size."""
+    """Tangled, wandering, wound, straight or coinciding ones of a size."""
     kind = rng.integers(0, 5)
     for i in range(rng.integers(1, 40)):
         n = rng.integers(2, 120)

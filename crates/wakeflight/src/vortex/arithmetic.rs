@@ -1,4 +1,4 @@
-//! What an expansion is written in, for vectors of either precision.
+//! Operations that vectors of either precision have: what both sums use, and all that an expansion is written in.
 
 /// Operations on vectors of numbers, one for each point.
 pub(super) trait Arithmetic: Copy {

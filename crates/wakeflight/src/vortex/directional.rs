@@ -9,6 +9,7 @@ use super::models::{ForModel, Model, Seen, for_core};
 use super::strands::{Piece, Strands};
 use super::threads::share;
 use crate::numerics::instruction_set::InstructionSet;
+use crate::vortex::arithmetic::Arithmetic;
 use pulp::Simd;
 use std::marker::PhantomData;
 

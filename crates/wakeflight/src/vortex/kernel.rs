@@ -8,6 +8,7 @@ use super::lanes::{LEAST_SQUARE, Lanes, Roots};
 use super::models::{Model, Seen};
 use super::sources::Part;
 use super::strands::{Piece, Strand};
+use crate::vortex::arithmetic::Arithmetic;
 use pulp::Simd;
 use pulp::bytemuck::{cast_slice, cast_slice_mut};
 use std::marker::PhantomData;

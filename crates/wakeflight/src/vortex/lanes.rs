@@ -30,38 +30,12 @@ impl<S: Simd, R: Roots<S>> Lanes<S, R> {
         Self { simd, roots }
     }
     #[inline(always)]
-    pub fn splat(self, x: f64) -> S::f64s {
-        self.simd.splat_f64s(x)
-    }
-    #[inline(always)]
-    pub fn add(self, a: S::f64s, b: S::f64s) -> S::f64s {
-        self.simd.add_f64s(a, b)
-    }
-    #[inline(always)]
     pub fn sub(self, a: S::f64s, b: S::f64s) -> S::f64s {
         self.simd.sub_f64s(a, b)
     }
     #[inline(always)]
-    pub fn mul(self, a: S::f64s, b: S::f64s) -> S::f64s {
-        self.simd.mul_f64s(a, b)
-    }
-    #[inline(always)]
     pub fn div(self, a: S::f64s, b: S::f64s) -> S::f64s {
         self.simd.div_f64s(a, b)
-    }
-    /// a b + c.
-    #[inline(always)]
-    pub fn mul_add(self, a: S::f64s, b: S::f64s, c: S::f64s) -> S::f64s {
-        self.simd.mul_add_e_f64s(a, b, c)
-    }
-    /// c - a b.
-    #[inline(always)]
-    pub fn sub_mul(self, c: S::f64s, a: S::f64s, b: S::f64s) -> S::f64s {
-        self.simd.negate_mul_add_e_f64s(a, b, c)
-    }
-    #[inline(always)]
-    pub fn max(self, a: S::f64s, b: S::f64s) -> S::f64s {
-        self.simd.max_f64s(a, b)
     }
     #[inline(always)]
     pub fn min(self, a: S::f64s, b: S::f64s) -> S::f64s {
@@ -87,11 +61,6 @@ impl<S: Simd, R: Roots<S>> Lanes<S, R> {
     #[inline(always)]
     pub fn sqrt(self, a: S::f64s) -> S::f64s {
         self.roots.sqrt(self, a)
-    }
-    /// One over the square root of positive numbers.
-    #[inline(always)]
-    pub fn reciprocal_sqrt(self, a: S::f64s) -> S::f64s {
-        self.roots.reciprocal_sqrt(self, a)
     }
 }
 

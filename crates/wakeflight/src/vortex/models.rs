@@ -2,6 +2,7 @@
 
 use super::core::{Core, CoreDistance, LAMB_OSEEN_ALPHA};
 use super::lanes::{LEAST_SQUARE, Lanes, Roots};
+use crate::vortex::arithmetic::Arithmetic;
 use pulp::Simd;
 
 /// What a core sees of a segment, for several points; r_c: core radius, L: |c| over the core distance.

@@ -1,6 +1,7 @@
 //! Square roots and their reciprocals, by the fastest means that is exact to rounding.
 
 use super::lanes::{Lanes, Roots};
+use crate::vortex::arithmetic::Arithmetic;
 use pulp::Simd;
 
 /// The instructions for root and division.

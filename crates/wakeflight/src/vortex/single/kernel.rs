@@ -2,6 +2,7 @@
 
 use super::lanes::{Lanes, OverLanes, Root};
 use super::packed::{SinglePart, SinglePiece, scaled};
+use crate::vortex::arithmetic::Arithmetic;
 use crate::vortex::sources::Part;
 use crate::vortex::strands::Strand;
 use pulp::Simd;

@@ -25,34 +25,8 @@ impl<S: Simd, R: Root<S>> Lanes<S, R> {
         Self { simd, root }
     }
     #[inline(always)]
-    pub fn splat(self, x: f32) -> S::f32s {
-        self.simd.splat_f32s(x)
-    }
-    #[inline(always)]
-    pub fn add(self, a: S::f32s, b: S::f32s) -> S::f32s {
-        self.simd.add_f32s(a, b)
-    }
-    #[inline(always)]
     pub fn sub(self, a: S::f32s, b: S::f32s) -> S::f32s {
         self.simd.sub_f32s(a, b)
-    }
-    #[inline(always)]
-    pub fn mul(self, a: S::f32s, b: S::f32s) -> S::f32s {
-        self.simd.mul_f32s(a, b)
-    }
-    /// a b + c.
-    #[inline(always)]
-    pub fn mul_add(self, a: S::f32s, b: S::f32s, c: S::f32s) -> S::f32s {
-        self.simd.mul_add_e_f32s(a, b, c)
-    }
-    /// c - a b.
-    #[inline(always)]
-    pub fn sub_mul(self, c: S::f32s, a: S::f32s, b: S::f32s) -> S::f32s {
-        self.simd.negate_mul_add_e_f32s(a, b, c)
-    }
-    #[inline(always)]
-    pub fn max(self, a: S::f32s, b: S::f32s) -> S::f32s {
-        self.simd.max_f32s(a, b)
     }
     #[inline(always)]
     pub fn min(self, a: S::f32s, b: S::f32s) -> S::f32s {

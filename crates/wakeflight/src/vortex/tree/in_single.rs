@@ -13,6 +13,7 @@ use super::order::distance;
 use super::rounding::{Swirl, rounded_off};
 use super::sum::add_block;
 use crate::numerics::instruction_set::InstructionSet;
+use crate::vortex::arithmetic::Arithmetic;
 use crate::vortex::core::{Core, CoreDistance};
 use crate::vortex::models::Vatistas2;
 use crate::vortex::single::kernel::{Tile, Total, Vectors, gathered, over_sources, splats};
@@ -26,10 +27,10 @@ const SHARE_OF_ROUNDING: f64 = 0.1;
 const LARGEST: f64 = 1e3;
 /// Farthest point, over the same.
 const FARTHEST: f64 = 1e8;
-/// Square of the least distance from a cell that is taken by its expansion, over its radius; it is more than one but for rounding.
-const LEAST_SQUARE: f64 = 0.5;
 /// Smallest cell, over the same.
 const SMALLEST: f64 = 1e-9;
+/// Square of the least distance from a cell that is taken by its expansion, over the cell's radius; more than one but for rounding.
+const LEAST_SQUARE: f64 = 0.5;
 
 /// The cells of a tree once more in single precision.
 pub(super) struct SingleCells<'a> {
@@ -62,23 +63,22 @@ impl<'a> SingleCells<'a> {
         if !fits {
             return None;
         }
+        // packed as they are: lengths are over the radius of the cell already
         let mut sources = SingleStrands::default();
-        sources.clear(Some(unit));
-        // a circulation of 4 pi units becomes one
+        sources.clear(Some(1.0));
         let circulation = 4.0 * std::f64::consts::PI * unit / strength;
         let mut swirls = Swirl::of_all(cells);
         for (cell, swirl) in cells.cells.iter().zip(&mut swirls) {
             let Some(leaf) = &cell.leaf else { continue };
-            // packed over the unit, lengths become those over the radius
-            let finer = unit / cell.radius;
-            let seen = |place: [f64; 3]| std::array::from_fn(|c| finer * (place[c] - cell.centre[c]));
+            let per_radius = 1.0 / cell.radius;
+            let seen = |place: [f64; 3]| std::array::from_fn(|c| per_radius * (place[c] - cell.centre[c]));
             let mut pieces = cells.sources.pieces[leaf.pieces.clone()].iter();
             for strand in &cells.sources.strands[leaf.strands.clone()] {
                 let mut from = strand.start;
                 for (i, piece) in pieces.by_ref().take(strand.n_pieces).enumerate() {
-                    let (core_radius, gamma) =
-                        (finer * piece.core_sq.sqrt(), finer * circulation * piece.strength);
-                    if !within_range(core_radius / unit, gamma / unit) {
+                    let core_radius = per_radius * piece.core_sq.sqrt();
+                    let gamma = per_radius * circulation * piece.strength;
+                    if !within_range(core_radius, gamma) {
                         *swirl = Swirl::UNKNOWN;
                     }
                     let ends = [seen(from), seen(piece.end)];

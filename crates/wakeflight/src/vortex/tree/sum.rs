@@ -6,6 +6,7 @@ use super::far_field::over_harmonics;
 use super::harmonics::VELOCITY_DEGREE;
 use super::lists::{Acceptance, Found, Lists, over_blocks};
 use crate::numerics::instruction_set::InstructionSet;
+use crate::vortex::arithmetic::Arithmetic;
 use crate::vortex::dispatch::{OverLanes, run};
 use crate::vortex::kernel::{Vectors, gathered, over_sources, scattered, splats};
 use crate::vortex::lanes::{LEAST_SQUARE, Lanes, Roots};
