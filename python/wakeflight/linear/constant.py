@@ -58,27 +58,26 @@ def decomposed(system: PeriodicSystem, harmonics: tuple[int, ...]) -> Constant:
     if not harmonics:
         return averaged(system)
     orders = np.array([0, *(n for each in harmonics for n in (each, -each))])
-    most = int(2 * np.max(orders))
-    a, b, c, rate = (complex_harmonics(each, most) for each in (system.a, system.b, system.c, system.b_rate))
-    n, s, m = orders.size, system.a.shape[1], system.b.shape[2]
-    hill = a[most + orders[:, None] - orders[None, :]].transpose(0, 2, 1, 3).reshape(n * s, n * s)
-    hill = hill - np.diag(1j * system.omega * np.repeat(orders, s))
-    to_real = np.kron(_to_real(len(harmonics)), np.eye(s))
-    back = np.kron(np.linalg.inv(_to_real(len(harmonics))), np.eye(s))
-    whole_a = to_real @ hill @ back
-    whole_b, whole_rate = (to_real @ each[most + orders].reshape(n * s, m) for each in (b, rate))
-    whole_c = c[most - orders].transpose(1, 0, 2).reshape(-1, n * s) @ back
     labels = [(0, ""), *((sign * k, f"_{k}{part}") for k in harmonics for sign, part in ((1, "cos"), (-1, "sin")))]
-    states = [(f"{name}{suffix}", unit) for _, suffix in labels for name, unit in system.states]
+    most, s = int(2 * np.max(orders)), len(system.states)
+    a, b, c, rate = (complex_harmonics(each, most) for each in (system.a, system.b, system.c, system.b_rate))
     harmonic = np.repeat([k for k, _ in labels], s)
     acts = np.flatnonzero(_acting(system, harmonic))
+    place, state = np.divmod(acts, s)
+    order = orders[place]
+    hill = a[most + order[:, None] - order, state[:, None], state] - np.diag(1j * system.omega * order)
+    real = _to_real(len(harmonics))
+    to_real, back = (each[place[:, None], place] * (state[:, None] == state) for each in (real, np.linalg.inv(real)))
+    whole_a = to_real @ hill @ back
+    whole_b, whole_rate = (to_real @ each[most + order, state] for each in (b, rate))
+    whole_c = c[most - order, :, state].T @ back
     return _felt(
-        whole_a.real[np.ix_(acts, acts)],
-        whole_b.real[acts],
-        whole_c.real[:, acts],
+        whole_a.real,
+        whole_b.real,
+        whole_c.real,
         complex_harmonics(system.d, 0)[0].real,
-        whole_rate.real[acts],
-        tuple(states[i] for i in acts),
+        whole_rate.real,
+        tuple((f"{system.states[i][0]}{labels[k][1]}", system.states[i][1]) for k, i in zip(place, state, strict=True)),
         harmonic[acts],
     )
 
@@ -105,6 +104,10 @@ def _to_real(n: int) -> np.ndarray:
     return whole
 
 
-def default_harmonics(n_blades: int) -> tuple[int, ...]:
-    """Harmonics that occur with equal blades: the blades' number, its half where a differential coordinate changes sign."""
-    return (n_blades // 2, n_blades) if n_blades % 2 == 0 else (n_blades, 2 * n_blades)
+def default_harmonics(n_blades: int, most: int = 0) -> tuple[int, ...]:
+    """Harmonics that occur with equal blades: the blades' number, its half where a differential coordinate changes sign.
+
+    Two of them, and those up to `most`.
+    """
+    first = n_blades // 2 if n_blades % 2 == 0 else n_blades
+    return tuple(range(first, max(2 * first, most) + 1, first))
