@@ -165,10 +165,6 @@ class Inflow:
         """This model on a stand."""
         return self
 
-    def in_double_precision(self) -> Self:
-        """This model with sums over vortices that small differences can be taken of."""
-        return self
-
     def as_attributes(self) -> dict[str, Any]:
         """Options by name, angles [rad], for the attributes of a result."""
         return {field.name: getattr(self, field.name) for field in fields(self)}
@@ -294,10 +290,6 @@ class FreeWake(Inflow):
         if self.far_wake != "repeat":
             raise InputError.of("far_wake", self.far_wake, "must be repeat above ground")
         return self
-
-    def in_double_precision(self) -> Self:
-        """This model with sums over vortices that small differences can be taken of."""
-        return self if self.precision == "double" else replace(self, precision="double")
 
 
 def _grouped(model: str, values: dict[str, Any]) -> dict[str, dict[str, Any]]:

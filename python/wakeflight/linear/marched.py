@@ -2,7 +2,7 @@
 """How a marched wake answers small motions about its periodic orbit: at once, and later.
 
 The wake of a flight is marched at the trim's own motion until it repeats itself. From there every cause is given to it, to either
-side, in double precision; half the difference is the answer, without what the orbit still drifts. A cause alone for one step, at
+side; half the difference is the answer, without what the orbit still drifts. A cause alone for one step, at
 every azimuth of a passage of the blades, gives what is answered at once, blade by blade. A smooth pulse that lasts a revolution
 and as many revolutions after it as the wake remembers give what is answered later: the pulse holds no frequency above half the
 blade passage, so that one pulse says what pulses at every other azimuth would.
@@ -21,15 +21,13 @@ import numpy as np
 from ..errors import NumericalFailure, known
 from ..exchange import Exchange
 from ..flight_start import flight_model
-from ..inflow import trim_model
-from ..model import CompiledRotor, Model
+from ..model import CompiledRotor
 from ..trim import Trim
-from ..trim.wake import WakeInTrim
 from .multiblade import columns, transformation
 from .names import MOTION, Places
-from .quasi_static import CONTROLS, ITERATIONS, PITCH, SIZES, TILT
+from .quasi_static import CONTROLS, PITCH, SIZES, TILT
 
-SETTLED, NEAR, MOST = 1e-9, 1e-5, 40
+SETTLED, NEAR, MOST = 1e-6, 1e-5, 40
 """Change of the inflow over a revolution, over its mean, at which a wake repeats itself and at which it still may be used;
 revolutions after which it is given up."""
 KNOTS = 4
@@ -40,7 +38,7 @@ FORGOTTEN = 2e-4
 """Answer in a revolution, over the largest, below which nothing more is waited for."""
 
 SHARE = 0.1
-"""Changes to either side over those that a relaxation wake is given: sums are exact, and kinks of section tables are near."""
+"""Changes to either side over those that a relaxation wake is given: kinks of section tables are near."""
 HARMONICS = tuple((f"{n}{part}", n, phase) for n in range(1, 6) for part, phase in (("c", 0.0), ("s", -0.5 * np.pi)))
 """Motion that every blade makes in turn, where multiblade coordinates do not hold it still: name, harmonic of its azimuth, phase
 [rad]."""
@@ -277,14 +275,5 @@ def causes_of(where: Places, remembered: list[int]) -> tuple[list[Cause], list[C
 
 
 def _begun(start: Trim) -> Exchange:
-    """The marched wake of this trim, from its relaxation wake, with sums in double precision."""
-    model, steady = flight_model(start, "time-marching"), known(start.wake)
-    inflow = model.inflow.in_double_precision()
-    if inflow is not model.inflow:
-        # the same wakes anew: the first need not rest, marching brings it to its orbit
-        model = Model.build(start.aircraft, start.condition, inflow)
-        relaxed = Model.build(start.aircraft, start.condition, trim_model(start.model.inflow).in_double_precision())
-        steady = WakeInTrim(relaxed, start.inflow_map)
-        motion = relaxed.core.trim_motion(start.problem, start.x, start.inflow_map.shape[0])
-        steady.core.converge(relaxed.core, start.state(0.0), start.stick_si, motion, ITERATIONS)
-    return Exchange.marching(model, steady)
+    """The marched wake of this trim, from its relaxation wake."""
+    return Exchange.marching(flight_model(start, "time-marching"), known(start.wake))
