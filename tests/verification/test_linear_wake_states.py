@@ -38,14 +38,14 @@ def models(start):
     return {wake: wf.linearize(start, wake=wake) for wake in ("states", "identified", "quasi-static", "frozen")}
 
 
-def test_the_wake_of_a_trim_with_a_marching_one_in_single_precision_is_marched_in_double(orbit):
-    condition = orbit.start.condition
-    wake = wf.TimeMarchingWake(**WAKE, precision="single")
-    single = Orbit(wf.trim(orbit.start.aircraft, condition, inflow=wake), orbit.where)
-    assert single.model.inflow.marching.precision == "double" and single.distance < 1e-8
-    # the two trims differ by what a trim allows
-    off = np.mean((single.exchange.inflow - orbit.exchange.inflow) ** 2 @ orbit.model.area_weights)
-    assert np.sqrt(off) < 0.05 * orbit.model.disk_mean(orbit.exchange.inflow)
+@pytest.mark.parametrize("name", ["w", "p", "theta_1s", "flap_1_3s"])
+def test_answers_by_sums_in_single_precision_are_those_in_double(orbit, name):
+    assert orbit.model.inflow.marching.precision == "single"
+    start = trimmed("80 kt", precision="double")
+    double = Orbit(start, places(start.model))
+    cause = next(each for each in causes_of(orbit.where, [1])[0] if each.name == name)
+    single, exact = (each.later(cause).inflow for each in (orbit, double))
+    assert np.abs(single - exact).max() < 3e-3 * np.abs(exact).max()
 
 
 def test_laguerre_functions_are_orthonormal_and_a_known_system_is_found_again():
@@ -133,7 +133,7 @@ def test_what_blades_do_in_turn_is_remembered_as_the_motion_of_one_mode_with_the
     orbit = Orbit(fast, places(fast.model))
     slow, quick = causes_of(orbit.where, list(range(orbit.where.n_modes)))
     pulsed, others = served(slow, orbit.where)
-    assert len(pulsed) == 9 + 15 + 2 + 8 and len(pulsed) + len(others) == len(slow) == 9 + 15 + 40
+    assert len(pulsed) == 9 + 15 + 2 + 4 + 8 and len(pulsed) + len(others) == len(slow) == 9 + 15 + 40
     moving = [each for each in quick if each.of_blades]
     # torsion gives circulation within a tenth of that of the third mode; flap moves the tips besides, which is half of it
     causes = [next(each for each in others if each.name == name) for name in ("lag_2-flap_3_3c", "flap_1_3c")]
@@ -168,7 +168,7 @@ def test_pitch_after_a_lateral_step_at_120_kt_knows_what_blades_do_in_turn(fast)
 
 
 def test_the_orbit_repeats_itself_and_differences_about_it_do_not_depend_on_their_size(orbit):
-    assert orbit.distance < 1e-8
+    assert orbit.distance < 1e-6
     slow, _ = causes_of(orbit.where, [])
     cause = next(each for each in slow if each.name == "p")
     # what circulations are known to shows in small ones, kinks of the section tables in large ones
@@ -192,7 +192,7 @@ def test_the_states_are_stable_and_told(models):
     model = models["states"]
     told = model.attributes
     assert told["wake_order_1e-02"] < told["wake_order"] == told["wake_order_1e-03"] < told["wake_order_1e-04"]
-    assert told["wake_orbit"] < 1e-8 and told["wake_misfit"] < 0.01
+    assert told["wake_orbit"] < 1e-6 and told["wake_misfit"] < 0.01
     assert told["wake_hold"] == 0.0
     wake = [i for i, (name, _) in enumerate(model.states) if name.startswith("wake_")]
     assert len(wake) == told["wake_order"]

@@ -17,6 +17,7 @@ from .constant import averaged, decomposed, default_harmonics
 from .identified import identified_wake
 from .instants import STICKS, check_inputs, units_of
 from .linearized import METHODS, Linearized
+from .marched import HARMONICS
 from .names import INFLOW
 from .over_ground import check_speed
 from .quasi_static import wake_gains
@@ -29,6 +30,8 @@ __all__ = ["LinearModel", "Linearized", "inflow_constants", "linearize"]
 
 FINER = 4
 """Azimuths of derivatives under a wake, over those of its inflow: sections cross kinks of their tables in between."""
+IN_TURN = max(order for _, order, _ in HARMONICS) + 1
+"""Harmonic of multiblade coordinates up to which blades move in turn as a marched wake feels them."""
 
 
 @checked
@@ -54,7 +57,7 @@ def linearize(
     wake: of a trim with dynamic inflow `dynamic`, its states are states (default), or `frozen`, they stay as trimmed; of one on a
     free wake `frozen`, the inflow at every station stays as trimmed; `quasi-static`, it follows hub motion, blade pitch and tilt
     of the disk at once, as the relaxation wake does (some 25 wakes); `states`, it follows as the wake does that is marched in a
-    flight and repeats itself, whose memory becomes states (about a minute); or `identified`, the same from sweeps of the marched
+    flight and repeats itself, whose memory becomes states (half a minute); or `identified`, the same from sweeps of the marched
     wake, in hover too where it does not repeat itself (about a minute). tolerance: Hankel singular value over the largest, from
     which such a state is kept.
     blades: `multiblade` coordinates, or `individual` ones.
@@ -62,7 +65,8 @@ def linearize(
     dynamic or frozen inflow.
     order: None or `full`; otherwise as for `LinearModel.reduce`.
     method: `harmonic-decomposition`, or `averaging` over azimuth. harmonics: of the state, kept beside its mean; by default those
-    that occur with equal blades up to their number. azimuths: of the revolution at which derivatives are taken, 36 by default.
+    that occur with equal blades up to their number, with the `states` of a wake up to 6. azimuths: of the revolution at which
+    derivatives are taken, 36 by default.
 
     The derivatives are those of the trim's own aircraft: how many modes and elements they need is told in docs/linear-models.md.
     """
@@ -105,7 +109,8 @@ def linearize(
     system = periodic(
         start, raw, asked, blades, INFLOW if start.inflow.is_dynamic and wake == "frozen" else (), marched
     ).coarser(n)
-    kept = _harmonics(harmonics, raw.where.n_blades, blades, n) if method == METHODS[0] else ()
+    most = min(IN_TURN, n // 4) if wake == "states" else 0
+    kept = _harmonics(harmonics, (raw.where.n_blades, most), blades, n) if method == METHODS[0] else ()
     constant = decomposed(system, kept) if kept else averaged(system)
     attributes = {
         "aircraft": start.aircraft.name,
@@ -148,10 +153,11 @@ def _azimuths(asked: Any, start: Trim) -> int:
     return asked
 
 
-def _harmonics(asked: Sequence[int] | None, n_blades: int, blades: str, n: int) -> tuple[int, ...]:
-    """Harmonics of the state to be kept."""
+def _harmonics(asked: Sequence[int] | None, occur: tuple[int, int], blades: str, n: int) -> tuple[int, ...]:
+    """Harmonics of the state to be kept; those that `occur` are of so many blades and up to one more."""
+    n_blades, _ = occur
     if asked is None:
-        return default_harmonics(n_blades) if blades == "multiblade" else tuple(range(1, n_blades + 1))
+        return default_harmonics(*occur) if blades == "multiblade" else tuple(range(1, n_blades + 1))
     kept = tuple(asked)
     for each in kept:
         if isinstance(each, bool) or not isinstance(each, int) or not 0 < each <= n // 4 or kept.count(each) > 1:

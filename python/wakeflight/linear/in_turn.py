@@ -4,8 +4,9 @@
 Circulation that is the same whenever a blade comes by a place trails the same vortices there, however fast each blade goes
 through it: harmonics of the blades beyond the second move the mean and the tilt of the inflow too. A wake knows the blades by
 their circulation. One mode, torsion where there is one, is given to it in all harmonics; what another does in turn is taken for
-the motion of that mode which gives the circulation nearest to its own, over all azimuths and stations. The first flap mode moves
-the blade tips, where the vortices begin: up to its second harmonic it is given itself.
+the motion of that mode which gives the circulation nearest to its own, over all azimuths and stations. Flapping moves the blade
+tips, where the vortices begin, and what the second flap mode does along the span no other mode does: each is given itself up to
+the harmonic near which it moves most.
 """
 
 from __future__ import annotations
@@ -16,28 +17,29 @@ from .marched import HARMONICS, Cause, Orbit
 from .names import Places
 from .sweeps import Driven, at_once
 
-GIVEN = 2
-"""Harmonic up to which the first flap mode is given itself."""
+GIVEN = (2, 3)
+"""Harmonics up to which the first flap modes are given themselves."""
 
 
-def carriers(where: Places) -> tuple[int, int]:
-    """The modes that are given to the wake in turn: the one that stands for others, and the first flap mode."""
+def carriers(where: Places) -> tuple[int, list[int]]:
+    """The modes that are given to the wake in turn: the one that stands for others, and the first flap modes."""
 
-    def first(kind: str, otherwise: int) -> int:
-        return next((i for i, label in enumerate(where.labels) if label.startswith(kind)), otherwise)
+    def named(kind: str) -> list[int]:
+        return [i for i, label in enumerate(where.labels) if label.startswith(kind)]
 
-    flap = first("flap", 0)
-    return first("torsion", flap), flap
+    flaps = named("flap")[: len(GIVEN)]
+    return next(iter([*named("torsion"), *flaps]), 0), flaps
 
 
 def served(causes: list[Cause], where: Places) -> tuple[list[Cause], list[Cause]]:
     """Causes that are given to the wake, and those for which others stand."""
-    carrier, flap = carriers(where)
+    carrier, flaps = carriers(where)
+    up_to = dict(zip(flaps, GIVEN, strict=False))
 
     def given(cause: Cause) -> bool:
         if cause.kind != "harmonic" or cause.index == carrier:
             return True
-        return cause.index == flap and HARMONICS[cause.column][1] <= GIVEN
+        return HARMONICS[cause.column][1] <= up_to.get(cause.index, 0)
 
     return [each for each in causes if given(each)], [each for each in causes if not given(each)]
 
