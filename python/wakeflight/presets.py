@@ -41,7 +41,7 @@ PRESETS: dict[str, dict[str, Any]] = {
     "reference": {
         "trailers": "full-span",
         "n_trailers": 10,
-        "trailer_core": 0.02,
+        "trailer_core": 0.08,
         "azimuth_step": "15 deg",
         "turns": 10,
         "far_wake_turns": 0,
