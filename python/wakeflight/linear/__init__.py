@@ -154,10 +154,14 @@ def _azimuths(asked: Any, start: Trim) -> int:
 
 
 def _harmonics(asked: Sequence[int] | None, occur: tuple[int, int], blades: str, n: int) -> tuple[int, ...]:
-    """Harmonics of the state to be kept; those that `occur` are of so many blades and up to one more."""
-    n_blades, _ = occur
+    """Harmonics of the state to be kept.
+
+    occur: number of blades, and the harmonic up to which more is kept than these make by themselves.
+    """
+    n_blades, most = occur
     if asked is None:
-        return default_harmonics(*occur) if blades == "multiblade" else tuple(range(1, n_blades + 1))
+        every = tuple(range(1, max(n_blades, most) + 1))
+        return default_harmonics(n_blades, most) if blades == "multiblade" else every
     kept = tuple(asked)
     for each in kept:
         if isinstance(each, bool) or not isinstance(each, int) or not 0 < each <= n // 4 or kept.count(each) > 1:

@@ -2,10 +2,10 @@
 """How a marched wake answers small motions about its periodic orbit: at once, and later.
 
 The wake of a flight is marched at the trim's own motion until it repeats itself. From there every cause is given to it, to either
-side; half the difference is the answer, without what the orbit still drifts. A cause alone for one step, at
-every azimuth of a passage of the blades, gives what is answered at once, blade by blade. A smooth pulse that lasts a revolution
-and as many revolutions after it as the wake remembers give what is answered later: the pulse holds no frequency above half the
-blade passage, so that one pulse says what pulses at every other azimuth would.
+side; half the difference is the answer, without what the orbit still drifts. A cause alone for one step, at every azimuth of a
+passage of the blades, gives what is answered at once, blade by blade. A smooth pulse that lasts a revolution and as many
+revolutions after it as the wake remembers give what is answered later: the pulse holds no frequency above half the blade passage,
+so that one pulse says what pulses at every other azimuth would.
 """
 
 from __future__ import annotations
@@ -28,8 +28,8 @@ from .names import MOTION, Places
 from .quasi_static import CONTROLS, PITCH, SIZES, TILT
 
 SETTLED, NEAR, MOST = 1e-6, 1e-5, 40
-"""Change of the inflow over a revolution, over its mean, at which a wake repeats itself and at which it still may be used;
-revolutions after which it is given up."""
+"""Change of the inflow over a revolution, over its mean, at which a wake repeats itself (in single precision some remains)
+and at which it still may be used; revolutions after which it is given up."""
 KNOTS = 4
 """Passages of blades that a pulse lasts, a cubic B-spline."""
 BEYOND = 2
