@@ -27,6 +27,9 @@ const MAX_LAGGED: usize = 2000;
 /// Residual over that from which slopes are taken as they are, at which it has arrived.
 const ARRIVED: f64 = 0.01;
 
+/// Share of the tolerance to which a solution is found that Newton did not find from the start.
+const TO_ROUNDING: f64 = 1e-5;
+
 /// Solution of the circulation and the near wake.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CirculationSolution {
@@ -56,14 +59,14 @@ impl CirculationSolution {
 pub enum Route {
     /// Newton from the start given.
     Newton,
+    /// Circulation that follows its sections with a lag, until it has reached them.
+    Lagged,
     /// The path on which the defect of the start given goes to zero: the solution continuous with the start.
     FromStart,
     /// Newton from the circulation of sections with the far inflow's slopes.
     Linear,
     /// The path on which the near wake's influence grows from none to its own.
     NearWake,
-    /// Circulation that follows its sections with a lag, until it has reached them.
-    Lagged,
 }
 
 /// One evaluation: inflow, section circulation and slopes at `gamma`.
@@ -126,15 +129,15 @@ struct Problem<'a, F> {
 /// they are, which converges in two or three steps where clipped ones take fifteen or never arrive (reverse flow, high Mach
 /// number). What that finds is taken if it is near; otherwise the slopes stay clipped.
 ///
-/// Where Newton does not arrive, the solution is followed along a path by arc length ([`follow`]): with the defect D_0 of
+/// Where Newton does not arrive, each station goes toward its section step by step from the start, as air that needs time would,
+/// and where that comes to rest Newton ends it: of several solutions the one that the blade would come to. Where it finds no rest,
+/// the solution is followed along a path by arc length ([`follow`]): with the defect D_0 of
 /// the start, D = (1 - t) D_0 for t from 0 to 1 leads from the start to the solution continuous with it. Should it come
 /// back to t = 0, the influence of the near wake is let grow from none, where each station has one solution of its own, to
 /// all: Gamma = Gamma_section(lambda_far + t N Gamma). Lift coefficients are bounded and vanish where the inflow is all of
 /// the wind, so circulation stays bounded on the way and the path has nowhere to go but to t = 1. Between the two Newton is
 /// tried from the circulation that sections of the far inflow's slope would have: a wide blade's start without near wake
-/// stalls its tip, and Newton does not come back from there. A path with kinks in twenty unknowns can be lost all the same (a step
-/// lands on a closed loop of another branch): at last each station goes toward its section step by step, as air that needs time
-/// would, and stays where it comes to rest. Values of `section` that are not finite are treated as an
+/// stalls its tip, and Newton does not come back from there. Values of `section` that are not finite are treated as an
 /// infinite residual and never accepted.
 pub fn solve_circulation(
     lambda_far: &[f64],
@@ -197,12 +200,12 @@ impl<F: FnMut(&[f64], &mut [f64], &mut [f64])> Problem<'_, F> {
         if self.solved(&newton, tolerance) {
             return (newton, iterations, Some(Route::Newton));
         }
-        for route in [Route::FromStart, Route::Linear, Route::NearWake, Route::Lagged] {
+        for route in [Route::Lagged, Route::FromStart, Route::Linear, Route::NearWake] {
             let arrived = match route {
+                Route::Lagged => self.lagged(&gamma_start),
                 Route::Newton | Route::FromStart => self.along_defect(&gamma_start),
                 Route::Linear => self.linear(),
                 Route::NearWake => self.along_near_wake(),
-                Route::Lagged => self.lagged(&gamma_start),
             };
             let Some(gamma) = arrived else { continue };
             let mut there = Iterate::new(gamma.len());
@@ -216,7 +219,9 @@ impl<F: FnMut(&[f64], &mut [f64], &mut [f64])> Problem<'_, F> {
             };
             iterations += n;
             if self.solved(&found, tolerance) {
-                return (found, iterations, Some(route));
+                // on to rounding: the last digits do not tell the way it came
+                let (found, n) = self.descend(found, Slopes::Exact, TO_ROUNDING * tolerance);
+                return (found, iterations + n, Some(route));
             }
         }
         (newton, iterations, None)

@@ -118,8 +118,8 @@ fn every_problem_within_reach_of_a_helicopter_has_a_solution_and_it_is_found() {
             assert!(solution.gamma[i].abs() <= most + 1e-5, "station {i}: {} of {most}", solution.gamma[i]);
         }
     }
-    // the problems are hard enough that Newton alone leaves some
-    assert!(found[1] > 0, "{found:?}");
+    // the problems are hard enough that Newton alone leaves some, and rest alone some of these
+    assert!(found[1] > 0 && found[2..].iter().any(|n| *n > 0), "{found:?}");
 }
 
 #[test]
