@@ -127,6 +127,17 @@ fn the_exchange_adds_nothing_to_the_wake_that_stands_alone() {
 
     let wake_hub = HubMotion { velocity: hub.velocity.array(), rates: hub.omega.array() };
     let (mut far, mut gamma) = (exchange.lambda_far.clone(), exchange.circulation.clone());
+    // circulation is sought from where it led the blade before: what changes is the way there, and with it the last bits
+    let (width, mut passed) = (options.n_stations, steady.circulation.clone());
+    let change = |passed: &[f64], step: usize| -> Vec<f64> {
+        let at = |step: usize, b: usize| row(step, b, rotor.n_blades, n) * width;
+        let of_blade = |b: usize| {
+            let (now, ahead) = (at(step, b), at(step + 1, b));
+            (0..width).map(move |j| passed[ahead + j] - passed[now + j])
+        };
+        (0..rotor.n_blades).flat_map(of_blade).collect()
+    };
+    let mut changes = change(&passed, 0);
     for step in 1..n / 2 {
         let now: Vec<BladeInstant> =
             (0..rotor.n_blades).map(|b| blades[row(step, b, rotor.n_blades, n)]).collect();
@@ -138,7 +149,8 @@ fn the_exchange_adds_nothing_to_the_wake_that_stands_alone() {
                 .unwrap()
                 .gamma
         };
-        gamma = solved(&far, &gamma);
+        let ahead: Vec<f64> = gamma.iter().zip(&changes).map(|(gamma, change)| gamma + change).collect();
+        gamma = solved(&far, &ahead);
         let state = |blade: &BladeInstant| {
             let (flap, lead) = rotor.equivalent_angles(&blade.modal);
             BladeState { psi: blade.psi, flap, lead }
@@ -148,6 +160,11 @@ fn the_exchange_adds_nothing_to_the_wake_that_stands_alone() {
         gamma = solved(&far, &gamma);
         assert_eq!(exchange.wake.position(), alone.position(), "step {step}");
         assert_eq!(exchange.circulation, gamma, "step {step}");
+        changes = change(&passed, step);
+        for (b, gamma) in gamma.chunks_exact(width).enumerate() {
+            let k = row(step, b, rotor.n_blades, n) * width;
+            passed[k..k + width].copy_from_slice(gamma);
+        }
     }
     // something has moved: the wake is not that of the start
     assert_ne!(alone.position(), marching().position());

@@ -33,7 +33,7 @@ pub struct Circulations {
 /// Inflow that a blade's own near wake (and bound line) adds per unit of circulation, row-major (n_stations, n_stations)
 /// [s/m2].
 #[derive(Clone, Debug)]
-pub struct NearWake {
+struct NearWake {
     /// On the bound line.
     bound_line: Vec<f64>,
     /// At three quarters of the chord, where thin sections meet the air.
@@ -49,6 +49,13 @@ pub struct BladeInstant {
     pub modal: ModalMotion<f64>,
     /// Pitch from the swashplate.
     pub control: PitchMotion<f64>,
+}
+
+/// A blade at one instant with all that its circulation takes from its motion, whatever the far inflow.
+#[derive(Clone, Debug)]
+pub struct PlacedBlade {
+    winds: Vec<SectionWind>,
+    near: NearWake,
 }
 
 /// A blade at one instant, with what is known of the states of its sections where they remember.
@@ -176,8 +183,22 @@ impl Rotor {
             .collect()
     }
 
+    /// A blade at one instant, of a hub that moves as `blades` feel it and as their `near` wakes take it; `state`: its azimuth
+    /// and angles.
+    pub fn placed(
+        &self,
+        air: Air,
+        options: &WakeOptions,
+        (blades, near): (&HubMotion<f64>, &WakeHub),
+        instant: &BladeInstant,
+        state: &BladeState,
+    ) -> Result<PlacedBlade, WakeError> {
+        let near = self.near_wake(air, options, near, state)?;
+        Ok(PlacedBlade { winds: self.section_winds(blades, instant), near })
+    }
+
     /// Induction of a blade's own near wake, at the azimuth and the angles of `state`.
-    pub fn near_wake(
+    fn near_wake(
         &self,
         air: Air,
         options: &WakeOptions,
@@ -225,14 +246,12 @@ impl Rotor {
     }
 
     /// Circulation of one blade and the inflow it holds ([`inflow_width`](Self::inflow_width)) for the held far inflow
-    /// (n_stations) and its near wake.
+    /// (n_stations), its near wake and what its sections remember.
     pub fn blade_circulation(
         &self,
         air: Air,
-        hub: &HubMotion<f64>,
-        blade: BladeInTime,
+        (blade, past): (&PlacedBlade, Option<BladePast>),
         lambda_far: &[f64],
-        near_wake: &NearWake,
         start: &[f64],
     ) -> Result<CirculationSolution, WakeError> {
         let radius = self.blade.radius;
@@ -241,11 +260,10 @@ impl Rotor {
         let floor: Vec<f64> =
             self.blade.stations.iter().map(|s| steepest * s.geometry.chord * self.tip_speed()).collect();
         let tolerance = CIRCULATION_TOLERANCE * self.omega * radius * radius;
-        // the motion of the sections does not change while the circulation is sought
-        let winds = self.section_winds(hub, blade.instant);
         let section = |lambda: &[f64], circulation: &mut [f64], slope: &mut [f64]| {
-            self.circulation_of(air, (&winds, blade.past), lambda, circulation, slope);
+            self.circulation_of(air, (&blade.winds, past), lambda, circulation, slope);
         };
+        let near_wake = &blade.near;
         let matrix = near_wake.three_quarter.as_ref().unwrap_or(&near_wake.bound_line);
         let mut solution = solve_circulation(lambda_far, matrix, section, start, &floor, tolerance)?;
         if near_wake.three_quarter.is_some() {
@@ -278,8 +296,8 @@ impl Rotor {
         let mut all = Circulations::default();
         for (i, blade) in instants.iter().enumerate() {
             let (flap, lead) = self.equivalent_angles(&blade.modal);
-            let near =
-                self.near_wake(air, options, &course.near, &BladeState { psi: blade.psi, flap, lead })?;
+            let state = BladeState { psi: blade.psi, flap, lead };
+            let placed = self.placed(air, options, (&course.blades, &course.near), blade, &state)?;
             let row = i * n..(i + 1) * n;
             let past = if by_steps {
                 // where separation is steep its lag, held, would lead the circulation astray
@@ -287,15 +305,8 @@ impl Rotor {
             } else {
                 memory.periodic(i)
             };
-            let known = BladeInTime { instant: blade, past };
-            let solution = self.blade_circulation(
-                air,
-                &course.blades,
-                known,
-                &lambda_far[row.clone()],
-                &near,
-                &start[row],
-            )?;
+            let solution =
+                self.blade_circulation(air, (&placed, past), &lambda_far[row.clone()], &start[row])?;
             let solution = self.solved(solution, i, blade.psi)?;
             all.residual = all.residual.max(solution.residual);
             all.followed += usize::from(solution.found_by != Some(Route::Newton));

@@ -7,14 +7,12 @@ use super::passages::Passages;
 use super::{Held, Lattice, Place, SteadyWake, over_step, row, steps_of};
 use crate::blade::memory_rows::MemoryRows;
 use crate::inflow::disk::{DiskMean, LiftingDisk};
-use crate::rotor::circulation::{BladeInTime, BladeInstant, NearWake};
+use crate::rotor::circulation::{BladeInstant, PlacedBlade};
 use crate::rotor::hub::Rotor;
 use crate::vortex::threads::share;
 use crate::wake::airframe::mean_at_parts;
 use crate::wake::miss_distance::miss_distance_in_cores;
-use crate::wake::{
-    AtParts, BladeState, CirculationSolution, InboardWake, Route, TimeMarchingWake, WakeError,
-};
+use crate::wake::{AtParts, BladeState, InboardWake, Route, TimeMarchingWake, WakeError};
 use serde::{Deserialize, Serialize};
 
 /// What an exchange saw.
@@ -28,20 +26,6 @@ pub struct ExchangeReport {
     pub miss_distance: f64,
     /// Circulations that Newton did not find from the last ones: see [`Route`].
     pub followed: usize,
-}
-
-impl Place<'_> {
-    fn solved(
-        &self,
-        b: usize,
-        blade: BladeInTime,
-        far: &[f64],
-        near: &NearWake,
-        start: &[f64],
-    ) -> Result<CirculationSolution, WakeError> {
-        let solution = self.rotor.blade_circulation(self.air, &self.blade_hub(), blade, far, near, start)?;
-        self.rotor.solved(solution, b, blade.instant.psi)
-    }
 }
 
 /// Time-marching wake and the circulation and inflow that belong to it.
@@ -71,7 +55,7 @@ pub struct MarchingExchange {
     /// Inflow, far inflow and circulation at the latest passage of every azimuth.
     passages: Passages,
     passed_far: Passages,
-    passed_circulation: Vec<f64>,
+    passed_circulation: Passages,
     /// Air at the parts of the airframe after each step of the last revolution [m/s, `_h`], by the number of the step; empty where they do
     /// not feel the wake.
     at_parts: Vec<AtParts>,
@@ -86,7 +70,7 @@ pub struct MarchingExchange {
     #[serde(skip)]
     states: Vec<BladeState>,
     #[serde(skip)]
-    near_wakes: Vec<NearWake>,
+    placed: Vec<PlacedBlade>,
 }
 
 impl MarchingExchange {
@@ -114,13 +98,13 @@ impl MarchingExchange {
             area: rotor.disk_mean(),
             passages: Passages::new(&start.inflow, width, rotor.n_blades, 0),
             passed_far: Passages::new(&start.lambda_far, n_stations, rotor.n_blades, 0),
-            passed_circulation: start.circulation.clone(),
+            passed_circulation: Passages::new(&start.circulation, n_stations, rotor.n_blades, 0),
             at_parts: start.at_parts.repeat(rotor.n_blades),
             held_map: start.inflow.clone(),
             elapsed: 0.0,
             blades: Vec::new(),
             states: Vec::new(),
-            near_wakes: Vec::new(),
+            placed: Vec::new(),
         }
     }
 
@@ -157,7 +141,8 @@ impl MarchingExchange {
         self.elapsed = elapsed;
         let hub = at.wake_hub();
         if self.wake.options().inboard_wake == InboardWake::Sheet {
-            self.wake.set_mean_inflow(self.disk.carrying_inflow(&self.passed_circulation, hub.velocity))?;
+            self.wake
+                .set_mean_inflow(self.disk.carrying_inflow(&self.passed_circulation.map, hub.velocity))?;
         }
         self.wake.set_pace(at.pace())?;
         self.wake.set_ground(at.ground);
@@ -211,7 +196,7 @@ impl MarchingExchange {
     pub fn turn(&mut self, at: &Place, periodic: &[BladeInstant]) -> Result<(Vec<f64>, Vec<f64>), WakeError> {
         let (n, n_blades) = (periodic.len(), self.disk.n_blades);
         let mut inflow = vec![0.0; self.passages.map.len()];
-        let mut circulation = vec![0.0; self.passed_circulation.len()];
+        let mut circulation = vec![0.0; self.passed_circulation.map.len()];
         let mut blades = Vec::with_capacity(n_blades);
         for _ in 0..n {
             let rows: Vec<usize> = (0..n_blades).map(|b| row(self.step + 1, b, n_blades, n)).collect();
@@ -231,13 +216,7 @@ impl MarchingExchange {
     fn keep_passages(&mut self) {
         self.passages.keep(self.step, &self.inflow);
         self.passed_far.keep(self.step, &self.lambda_far);
-        let (n_blades, n_stations) = (self.disk.n_blades, self.disk.stations.len());
-        let n = self.passed_circulation.len() / n_stations;
-        for b in 0..n_blades {
-            let k = row(self.step, b, n_blades, n);
-            self.passed_circulation[k * n_stations..(k + 1) * n_stations]
-                .copy_from_slice(&self.circulation[b * n_stations..(b + 1) * n_stations]);
-        }
+        self.passed_circulation.keep(self.step, &self.circulation);
         if self.hold.is_some_and(|every| self.step.is_multiple_of(every)) {
             self.held_map.clone_from(&self.passages.map);
         }
@@ -254,7 +233,7 @@ impl MarchingExchange {
 
     /// Blades at their azimuths, and their near wakes.
     fn place(&mut self, at: &Place, blades: &[BladeInstant]) -> Result<(), WakeError> {
-        let (rotor, hub) = (at.rotor, &at.near_hub());
+        let (rotor, hubs) = (at.rotor, (&at.blade_hub(), &at.near_hub()));
         self.blades.clear();
         self.blades.extend_from_slice(blades);
         self.states.clear();
@@ -262,14 +241,14 @@ impl MarchingExchange {
             let (flap, lead) = rotor.equivalent_angles(&blade.modal);
             BladeState { psi: blade.psi, flap, lead }
         }));
-        let mut near_wakes: Vec<Option<Result<NearWake, WakeError>>> = blades.iter().map(|_| None).collect();
+        let mut placed: Vec<Option<Result<PlacedBlade, WakeError>>> = blades.iter().map(|_| None).collect();
         let options = self.wake.options();
-        share(self.states.iter().zip(&mut near_wakes), |(state, near)| {
-            *near = Some(rotor.near_wake(at.air, options, hub, state));
+        share(blades.iter().zip(&self.states).zip(&mut placed), |((blade, state), placed)| {
+            *placed = Some(rotor.placed(at.air, options, hubs, blade, state));
         });
-        self.near_wakes.clear();
-        for near in near_wakes.into_iter().flatten() {
-            self.near_wakes.push(near?);
+        self.placed.clear();
+        for placed in placed.into_iter().flatten() {
+            self.placed.push(placed?);
         }
         Ok(())
     }
@@ -285,11 +264,15 @@ impl MarchingExchange {
         options.add_upwash(at.airframe, &at.wake_hub(), instant, &mut self.lambda_far);
     }
 
-    /// Circulation and total inflow of every blade; `before`: the far inflow is that of the step before, to be carried on.
+    /// Circulation and total inflow of every blade; `before`: the far inflow is that of the step before, to be carried on, and the
+    /// circulation is sought from where it led the blade before.
     fn solve(&mut self, at: &Place, before: bool) -> Result<usize, WakeError> {
         self.far_held.copy_from_slice(&self.lambda_far);
+        if before {
+            add_to(&mut self.circulation, &self.passed_circulation.change);
+        }
         if before && self.wake.own().extrapolate {
-            self.far_held.iter_mut().zip(&self.passed_far.change).for_each(|(held, more)| *held += more);
+            add_to(&mut self.far_held, &self.passed_far.change);
         }
         // the sections feel a gust as they feel inflow; what is kept is induced
         for (held, gust) in self.far_held.iter_mut().zip(at.gust) {
@@ -298,12 +281,13 @@ impl MarchingExchange {
         let n = self.wake.options().n_stations;
         let mut outcomes: Vec<Result<bool, WakeError>> = vec![Ok(true); self.blades.len()];
         let (memory, elapsed) = (&self.memory, self.elapsed);
-        let given = self.blades.iter().zip(&self.near_wakes).zip(self.far_held.chunks(n)).enumerate();
+        let given = self.blades.iter().zip(&self.placed).zip(self.far_held.chunks(n)).enumerate();
         let width = at.rotor.inflow_width();
         let kept = self.circulation.chunks_mut(n).zip(self.inflow.chunks_mut(width)).zip(&mut outcomes);
-        share(given.zip(kept), |((b, ((instant, near), far)), ((circulation, inflow), outcome))| {
-            let blade = BladeInTime { instant, past: memory.step(b, elapsed) };
-            *outcome = at.solved(b, blade, far, near, circulation).map(|solution| {
+        share(given.zip(kept), |((b, ((instant, blade), far)), ((circulation, inflow), outcome))| {
+            let blade = (blade, memory.step(b, elapsed));
+            let solution = at.rotor.blade_circulation(at.air, blade, far, circulation);
+            *outcome = solution.and_then(|found| at.rotor.solved(found, b, instant.psi)).map(|solution| {
                 circulation.copy_from_slice(&solution.gamma);
                 inflow.copy_from_slice(&solution.inflow);
                 solution.found_by == Some(Route::Newton)
@@ -325,6 +309,10 @@ impl MarchingExchange {
     }
 }
 
+fn add_to(values: &mut [f64], more: &[f64]) {
+    values.iter_mut().zip(more).for_each(|(v, more)| *v += more);
+}
+
 /// Takes a gust (n_blades, n) off rows of inflow of `width`, of thin sections at both lines of the chord.
 fn take_off(inflow: &mut [f64], gust: &[f64], (width, n): (usize, usize)) {
     for (row, gust) in inflow.chunks_exact_mut(width).zip(gust.chunks_exact(n)) {
@@ -336,6 +324,6 @@ fn take_off(inflow: &mut [f64], gust: &[f64], (width, n): (usize, usize)) {
 fn add_rows(map: &mut [f64], rows: &[usize], values: &[f64]) {
     let width = values.len() / rows.len();
     for (&k, blade) in rows.iter().zip(values.chunks_exact(width)) {
-        map[k * width..(k + 1) * width].iter_mut().zip(blade).for_each(|(sum, v)| *sum += v);
+        add_to(&mut map[k * width..(k + 1) * width], blade);
     }
 }
