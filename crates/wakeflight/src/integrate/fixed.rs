@@ -1,13 +1,15 @@
 //! Fixed steps of Radau IIA on F(y_dot, y, u; t) = 0, with exact derivatives.
 //!
 //! The stages solve F(t_i, y + Z_i, K_i) = 0 by a modified Newton iteration: dF/dy_dot is that of the start of the step,
-//! which also gives the consistent rate there, dF/dy may be somewhat older. It ends when what it still lacks, |dZ| theta/(1 - theta) with the contraction theta seen, is below a share
+//! which also gives the consistent rate there, dF/dy may be somewhat older; a secant takes off what they miss. It ends when what it
+//! still lacks, |dZ| theta/(1 - theta) with the contraction theta seen, is below a share
 //! of the weights rtol |y| + atol in the root mean square [hairer1996, Sec. IV.8]. Where it does not contract, dF/dy is
 //! found anew, and where that does not help the step is halved.
 
 use super::blocks::{Factor, Singular};
 use super::linearised::Linearised;
 use super::radau::{Radau, STAGES};
+use super::secant::Secant;
 use crate::system::instant::{Inputs, Instant};
 use crate::system::layout::Layout;
 use crate::system::model::System;
@@ -125,6 +127,10 @@ pub struct FixedStep {
     stages: [Vec<f64>; STAGES],
     right_real: Vec<f64>,
     right_complex: Vec<Complex<f64>>,
+    /// What Newton asks the stages to change by, and the weight of every state.
+    change: [Vec<f64>; STAGES],
+    weight: Vec<f64>,
+    secant: Secant,
     counters: Counters,
 }
 
@@ -157,6 +163,9 @@ impl FixedStep {
             stages: zeros(),
             right_real: vec![0.0; n],
             right_complex: vec![Complex::ZERO; n],
+            change: zeros(),
+            weight: vec![0.0; n],
+            secant: Secant::new(n),
             counters: Counters::default(),
         }
     }
@@ -287,8 +296,13 @@ impl FixedStep {
         let h = t1 - self.t;
         self.factor(h).map_err(|Singular| "the system of a step is singular or not finite")?;
         self.predict(h);
+        self.secant.begin();
+        for ((weight, y), atol) in self.weight.iter_mut().zip(&self.y).zip(&self.atol) {
+            *weight = 1.0 / (self.rtol * y.abs() + atol);
+        }
         let mut before = f64::INFINITY;
         let mut contraction: f64 = 0.5;
+        let mut grown = false;
         for iteration in 0..MAX_ITERATIONS {
             let change = self.iterate(system, h, inputs);
             self.counters.newton_iterations += 1;
@@ -298,7 +312,12 @@ impl FixedStep {
             if iteration > 0 {
                 contraction = change / before;
                 if contraction >= 1.0 && change > self.newton_share {
-                    return Err("the Newton iteration does not contract");
+                    if grown {
+                        return Err("the Newton iteration does not contract");
+                    }
+                    // a secant may lead astray once
+                    grown = true;
+                    self.secant.begin();
                 }
             }
             before = change;
@@ -346,7 +365,7 @@ impl FixedStep {
         }
     }
 
-    /// One Newton iteration; returns the RMS of the change of the stages over the weights.
+    /// One Newton iteration; returns the RMS of the change that it asks for over the weights.
     fn iterate(&mut self, system: &System, h: f64, inputs: &Inputs) -> f64 {
         let m = &self.method;
         let n = self.y.len();
@@ -373,13 +392,13 @@ impl FixedStep {
         let mut sum = 0.0;
         for i in 0..n {
             let dw = [self.right_real[i], self.right_complex[i].re, self.right_complex[i].im];
-            let weight = 1.0 / (self.rtol * self.y[i].abs() + self.atol[i]);
             for s in 0..STAGES {
                 let dz: f64 = (0..STAGES).map(|j| m.t[s][j] * dw[j]).sum();
-                self.z[s][i] += dz;
-                sum += (dz * weight).powi(2);
+                self.change[s][i] = dz;
+                sum += (dz * self.weight[i]).powi(2);
             }
         }
+        self.secant.advance(&mut self.z, &self.change, &self.weight);
         // a stand whose blades are held and whose inflow is given has no state
         if n == 0 { 0.0 } else { (sum / (STAGES * n) as f64).sqrt() }
     }

@@ -5,4 +5,5 @@ pub mod explicit;
 pub mod fixed;
 pub mod linearised;
 pub mod radau;
+pub mod secant;
 pub mod steps;
