@@ -99,8 +99,13 @@ pub fn stretched_core_squared(
 
 /// Distance of two points.
 pub(crate) fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    distance_squared(a, b).sqrt()
+}
+
+/// Its square.
+pub(crate) fn distance_squared(a: [f64; 3], b: [f64; 3]) -> f64 {
     let d = [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
-    (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt()
+    d[0] * d[0] + d[1] * d[1] + d[2] * d[2]
 }
 
 #[cfg(test)]

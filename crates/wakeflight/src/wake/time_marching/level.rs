@@ -4,7 +4,7 @@ use super::{TimeMarchingWake, Work};
 use crate::wake::choices::Form;
 use crate::wake::error::WakeError;
 use crate::wake::far_wake;
-use crate::wake::filament::{aged_core_squared, distance, stretched_core_squared};
+use crate::wake::filament::{aged_core_squared, distance, distance_squared, stretched_core_squared};
 use crate::wake::geometry::release_points;
 use crate::wake::inboard_sheet;
 use crate::wake::instant::RotorInstant;
@@ -68,10 +68,14 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
     ) {
         let [now, past, older] = &self.levels;
         new.resize(now.len(), [0.0; 3]);
-        for filament in 0..next.free.n_filaments {
-            let m = next.free.marker(filament, 0);
+        let first = |filament: usize| next.free.marker(filament, 0);
+        for m in (0..next.free.n_filaments).map(first) {
             new[m] = difference(next.free.position[m], carrier[m]);
-            for i in m..m + self.options.n_segments() {
+        }
+        // age by age: along a filament each cell waits for the one before, the filaments do not wait for each other
+        for k in 0..self.options.n_segments() {
+            for m in (0..next.free.n_filaments).map(first) {
+                let i = m + k;
                 let cell = Cell {
                     b: now[i + 1],
                     c: new[i],
@@ -80,7 +84,7 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
                     f: past[i],
                     g: older[i + 1],
                     h: older[i],
-                    i: (i > m).then(|| past[i - 1]),
+                    i: (k > 0).then(|| past[i - 1]),
                 };
                 new[i + 1] = corner(&cell, i);
             }
@@ -127,24 +131,42 @@ impl<F: InducedVelocity> TimeMarchingWake<F> {
 
     /// Largest motion of a marker over R; an error beyond the limit or if a position is not finite.
     pub(super) fn guard(&self, next: &RotorInstant) -> Result<f64, WakeError> {
-        let mut largest: f64 = 0.0;
+        let radius = self.options.rotor.radius;
+        let (mut largest, mut finite) = (0.0f64, true);
         for filament in 0..next.free.n_filaments {
             let m = next.free.marker(filament, 0);
-            for k in 1..=self.options.n_segments() {
-                let displacement = distance(next.free.position[m + k], self.instant.free.position[m + k - 1])
-                    / self.options.rotor.radius;
-                if displacement.is_nan() || displacement > LARGEST_DISPLACEMENT {
-                    return Err(WakeError::Diverged {
-                        filament,
-                        marker: k,
-                        displacement,
-                        limit: LARGEST_DISPLACEMENT,
-                        step: self.steps + 1,
-                    });
-                }
-                largest = largest.max(displacement);
+            let n = self.options.n_segments();
+            let markers = &next.free.position[m + 1..=m + n];
+            for (marker, before) in markers.iter().zip(&self.instant.free.position[m..m + n]) {
+                let squared = distance_squared(*marker, *before);
+                // the larger of a number and what is none is the number
+                finite &= !squared.is_nan();
+                largest = largest.max(squared);
             }
         }
-        Ok(largest)
+        // roots keep the order: one does for all
+        let displacement = largest.sqrt() / radius;
+        if finite && displacement <= LARGEST_DISPLACEMENT {
+            return Ok(displacement);
+        }
+        match self.too_far(next) {
+            None => Ok(displacement),
+            Some((filament, marker, displacement)) => {
+                let (limit, step) = (LARGEST_DISPLACEMENT, self.steps + 1);
+                Err(WakeError::Diverged { filament, marker, displacement, limit, step })
+            }
+        }
+    }
+
+    /// The first marker that has moved beyond the limit: filament, marker and motion over R.
+    fn too_far(&self, next: &RotorInstant) -> Option<(usize, usize, f64)> {
+        let n = self.options.n_segments();
+        let markers = (0..next.free.n_filaments).flat_map(|filament| (1..=n).map(move |k| (filament, k)));
+        let mut moved = markers.map(|(filament, k)| {
+            let m = next.free.marker(filament, k);
+            let motion = distance(next.free.position[m], self.instant.free.position[m - 1]);
+            (filament, k, motion / self.options.rotor.radius)
+        });
+        moved.find(|(.., motion)| motion.is_nan() || *motion > LARGEST_DISPLACEMENT)
     }
 }
