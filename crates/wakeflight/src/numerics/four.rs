@@ -33,6 +33,7 @@ pub use x86::four_at_once;
 mod x86 {
     use super::{Four, FourTask};
     use crate::numerics::scalar::{OfTwo, Real};
+    use crate::numerics::trig;
     use crate::numerics::wide::Known;
     use pulp::bytemuck::cast;
     use pulp::x86::V3;
@@ -94,9 +95,8 @@ mod x86 {
         }
         #[inline(always)]
         fn sin_cos(self) -> (Self, Self) {
-            let v = self.values();
-            let (a, b, c, d) = (v[0].sin_cos(), v[1].sin_cos(), v[2].sin_cos(), v[3].sin_cos());
-            (Self::of([a.0, b.0, c.0, d.0]), Self::of([a.1, b.1, c.1, d.1]))
+            let (sines, cosines) = trig::sin_cos_of(self.values());
+            (Self::of(sines), Self::of(cosines))
         }
         #[inline(always)]
         fn asin(self) -> Self {
@@ -105,8 +105,7 @@ mod x86 {
         }
         #[inline(always)]
         fn atan2(self, x: Self) -> Self {
-            let (y, x) = (self.values(), x.values());
-            Self::of([y[0].atan2(x[0]), y[1].atan2(x[1]), y[2].atan2(x[2]), y[3].atan2(x[3])])
+            Self::of(trig::atan2_of(self.values(), x.values()))
         }
         #[inline(always)]
         fn of_two<const K: usize, L: OfTwo<K>>(law: &L, a: Self, b: Self) -> [Self; K] {

@@ -5,15 +5,13 @@
 //! k.(p + r e) = k.p + r k.e: waves are turned to p once, and places as far to either side of it share sine and cosine.
 
 use super::compiled::{Loops, compiled};
+use super::trig::ROUNDING;
 
 /// Waves of a block: enough series side by side that none waits for its last product.
 const WAVES: usize = 16;
 
 /// A number of each wave of a block.
 type Block = [f64; WAVES];
-
-/// Added and taken off again, rounds what is below 2^51 to a whole number, which the last bits of the sum then hold.
-const ROUNDING: f64 = 6_755_399_441_055_744.0;
 
 /// Coefficients of sin(q pi/2)/q and of cos(q pi/2) in powers of q^2.
 const SINE: [f64; 8] = series(1);

@@ -9,4 +9,5 @@ pub mod jacobian;
 pub mod linear;
 pub mod scalar;
 pub mod tables;
+pub mod trig;
 pub mod wide;

@@ -1,5 +1,6 @@
 //! The scalar of every equation: `f64`, or a dual number that carries exact derivatives.
 
+use super::trig;
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
@@ -58,7 +59,7 @@ pub trait Real:
     /// Sine and cosine.
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
-        let (s, c) = self.re().sin_cos();
+        let (s, c) = trig::sin_cos(self.re());
         (self.chain(s, c), self.chain(c, -s))
     }
     /// Arcsine.
@@ -73,10 +74,10 @@ pub trait Real:
         let (yr, xr) = (self.re(), x.re());
         let squared = xr * xr + yr * yr;
         if squared == 0.0 {
-            return Self::cst(yr.atan2(xr));
+            return Self::cst(trig::atan2(yr, xr));
         }
         // d = (x dy - y dx)/(x^2 + y^2): built from the two chain rules
-        self.chain(yr.atan2(xr), xr / squared) + x.chain(0.0, -yr / squared)
+        self.chain(trig::atan2(yr, xr), xr / squared) + x.chain(0.0, -yr / squared)
     }
     /// Functions of `a` and `b` (chain rule).
     #[inline(always)]
