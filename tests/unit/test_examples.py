@@ -21,6 +21,7 @@ SHORT = {
     "autopilot": {"seconds": 0.6},
     "gym_autopilot": {"seconds": 0.6},
     "hover_taxi": {"seconds": 0.6},
+    "turboshaft": {"seconds": 0.6},
     "vortex_ring": {"n_segments": 90},
     "blade_frequencies": {"n_speeds": 2},
     "dynamic_stall": {"steps": 360},
