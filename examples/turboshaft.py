@@ -12,7 +12,7 @@ import matplotlib.pyplot as plt
 
 import wakeflight as wf
 
-GEAR, INERTIA = 20900 / 257.9, (1 + 9.2503) * 0.062 * 1.35582  # of a power turbine, with its load [kg m2]
+GEAR, INERTIA = 20900 / 257.9, (1 + 9.2503) * 0.062 * 1.35582  # turbine over rotor; with load [kg m2]
 GAS, TURBINE = (-2.693, 0.1296e6), (0.3865, 0.2105e5, 0.3295 - 0.565)  # rates by N_G, fuel, N_P [rpm, lb/s]
 GOVERNOR = (2000 / 7200, 2500 / 7200)  # fuel of an engine by rotor speed and its integral [lb/s; rad/s]
 

@@ -13,7 +13,6 @@ use super::secant::Secant;
 use crate::system::instant::{Inputs, Instant};
 use crate::system::layout::Layout;
 use crate::system::model::System;
-use crate::system::slopes::Slopes;
 use crate::vortex::threads::share;
 use nalgebra::Complex;
 use serde::{Deserialize, Serialize};
@@ -437,24 +436,5 @@ impl FixedStep {
             residual: f.get(worst).copied().unwrap_or(0.0),
             equation: system.layout.names().into_iter().nth(worst).map_or_else(String::new, |(name, _)| name),
         }
-    }
-}
-
-impl System {
-    /// Rate of state that satisfies F = 0 at (t, y): F is linear in it, so one solve with its matrix gives it.
-    ///
-    /// Fails where the mass matrix is singular, which no blade with mass has.
-    pub fn consistent_rate(&self, t: f64, y: &[f64], inputs: &Inputs) -> Result<Vec<f64>, Singular> {
-        let still = vec![0.0; y.len()];
-        let at = Instant { t, y, y_dot: &still, inputs };
-        let mut slopes = Slopes::new(&self.layout);
-        self.mass_slopes(&at, &mut slopes);
-        let mut mass = Factor::new(&slopes);
-        mass.mass(&slopes)?;
-        let mut rate = vec![0.0; y.len()];
-        self.residual_of_four(&at, &mut rate);
-        mass.solve(&slopes, &mut rate);
-        rate.iter_mut().for_each(|r| *r = -*r);
-        Ok(rate)
     }
 }

@@ -62,3 +62,22 @@ impl Linearised {
         }
     }
 }
+
+impl System {
+    /// Rate of state that satisfies F = 0 at (t, y): F is linear in it, so one solve with its matrix gives it.
+    ///
+    /// Fails where the mass matrix is singular, which no blade with mass has.
+    pub fn consistent_rate(&self, t: f64, y: &[f64], inputs: &Inputs) -> Result<Vec<f64>, Singular> {
+        let still = vec![0.0; y.len()];
+        let at = Instant { t, y, y_dot: &still, inputs };
+        let mut slopes = Slopes::new(&self.layout);
+        self.mass_slopes(&at, &mut slopes);
+        let mut mass = Factor::new(&slopes);
+        mass.mass(&slopes)?;
+        let mut rate = vec![0.0; y.len()];
+        self.residual_of_four(&at, &mut rate);
+        mass.solve(&slopes, &mut rate);
+        rate.iter_mut().for_each(|r| *r = -*r);
+        Ok(rate)
+    }
+}

@@ -5,7 +5,7 @@
 //! k.(p + r e) = k.p + r k.e: waves are turned to p once, and places as far to either side of it share sine and cosine.
 
 use super::compiled::{Loops, compiled};
-use super::trig::ROUNDING;
+use super::trig::{ROUNDING, turned};
 
 /// Waves of a block: enough series side by side that none waits for its last product.
 const WAVES: usize = 16;
@@ -45,12 +45,7 @@ fn sin_cos(turns: &Block) -> (Block, Block) {
         for n in (0..8).rev() {
             cosine = cosine * squared + COSINE[n];
         }
-        let (s, c) = ((sine * q).to_bits(), cosine.to_bits());
-        // an odd quarter swaps the two; the second and third turn the sine, the first and second the cosine
-        let quarter = sum.to_bits();
-        let swapped = (s ^ c) & 0u64.wrapping_sub(quarter & 1);
-        sines[k] = f64::from_bits((s ^ swapped) ^ ((quarter & 2) << 62));
-        cosines[k] = f64::from_bits((c ^ swapped) ^ ((quarter.wrapping_add(1) & 2) << 62));
+        (sines[k], cosines[k]) = turned(sine * q, cosine, sum);
     }
     (sines, cosines)
 }

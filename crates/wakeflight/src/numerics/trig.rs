@@ -64,6 +64,18 @@ fn chosen(first: bool, a: f64, b: f64) -> f64 {
     f64::from_bits((a.to_bits() & mask) | (b.to_bits() & !mask))
 }
 
+/// Sine and cosine of an angle from those of what is beyond its nearest quarter of a turn; the last bits of `sum` hold that quarter.
+#[inline(always)]
+pub fn turned(sine: f64, cosine: f64, sum: f64) -> (f64, f64) {
+    let (s, c) = (sine.to_bits(), cosine.to_bits());
+    // an odd quarter swaps the two; the second and third turn the sine, the first and second the cosine
+    let quarter = sum.to_bits();
+    let swapped = (s ^ c) & 0u64.wrapping_sub(quarter & 1);
+    let sine = f64::from_bits((s ^ swapped) ^ ((quarter & 2) << 62));
+    let cosine = f64::from_bits((c ^ swapped) ^ ((quarter.wrapping_add(1) & 2) << 62));
+    (sine, cosine)
+}
+
 /// Sines and cosines of angles [rad].
 #[inline(always)]
 pub fn sin_cos_of<const N: usize>(angles: [f64; N]) -> ([f64; N], [f64; N]) {
@@ -78,12 +90,7 @@ pub fn sin_cos_of<const N: usize>(angles: [f64; N]) -> ([f64; N], [f64; N]) {
         let squared = r * r;
         let sine = r + r * (squared * polynomial(&SINE, squared));
         let cosine = (1.0 - 0.5 * squared) + squared * (squared * polynomial(&COSINE, squared));
-        let (s, c) = (sine.to_bits(), cosine.to_bits());
-        // an odd quarter swaps the two; the second and third turn the sine, the first and second the cosine
-        let quarter = sum.to_bits();
-        let swapped = (s ^ c) & 0u64.wrapping_sub(quarter & 1);
-        sines[k] = f64::from_bits((s ^ swapped) ^ ((quarter & 2) << 62));
-        cosines[k] = f64::from_bits((c ^ swapped) ^ ((quarter.wrapping_add(1) & 2) << 62));
+        (sines[k], cosines[k]) = turned(sine, cosine, sum);
     }
     if largest > LARGEST {
         for k in 0..N {
